@@ -1,0 +1,175 @@
+#pragma once
+
+/// The prologue: what every layer of one fragment shares, and tangent frames for texture coordinates.
+
+#include <surfgrad/vec.hpp>
+
+namespace surfgrad {
+
+/// How a double-sided surface looks from behind (section 2.10).
+enum class BackFaces {
+  same,   ///< the perturbed normal of the front side (the paper's None)
+  mirror, ///< the interpolated normal is negated, bumps stay bumps
+  flip,   ///< the perturbed normal of the front side, negated: bumps become dents
+};
+
+/// Per-fragment state of one pass of bump mapping. All vectors are in one space of the caller's
+/// choice, usually world space; positions may be relative to the camera.
+template <class T>
+struct Frame {
+  vec3<T> normal;           ///< base normal: unit, or zero where nothing defines it
+  vec3<T> dp_dx, dp_dy;     ///< screen-space derivatives of the surface position
+  vec3<T> sigma_x, sigma_y; ///< dp_dx, dp_dy without their part along the normal
+  T flip_sign;              ///< +1 or -1: orientation of (dp_dx, dp_dy) seen against the normal
+  T resolve_sign;           ///< -1 on a back face in mode flip, else +1
+};
+
+/// Directions in which s and t grow. Scale matters: from_tbn uses the vectors as they are.
+template <class T>
+struct TangentFrame {
+  vec3<T> tangent, bitangent;
+};
+
+namespace detail {
+
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr Frame<T> frame_from_unit_normal(vec3<T> n, vec3<T> dp_dx,
+                                                                             vec3<T> dp_dy, T resolve_sign) {
+  const T one = T(value_t<T>(1));
+  const T orientation = dot(dp_dy, cross(n, dp_dx));
+  return {n,
+          dp_dx,
+          dp_dy,
+          dp_dx - dot(dp_dx, n) * n,
+          dp_dy - dot(dp_dy, n) * n,
+          select(orientation < T(value_t<T>(0)), -one, one),
+          resolve_sign};
+}
+
+/// normalize(normal), or the direction of cross(dp_dx, dp_dy) where the normal is zero.
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> unit_normal_or_plane(vec3<T> normal, vec3<T> dp_dx,
+                                                                vec3<T> dp_dy) {
+  const mask_t<T> absent = max_abs(normal) < T(std::numeric_limits<value_t<T>>::min());
+  // Normalise the factors first: their product would underflow for a microscopic footprint.
+  const vec3<T> plane = cross(normalize_or_zero(dp_dx), normalize_or_zero(dp_dy));
+  return normalize_or_zero(select<T>(absent, plane, normal));
+}
+
+} // namespace detail
+
+/// Prologue for a fragment whose back side needs no special care.
+///
+/// normal        interpolated vertex normal, of any length
+/// dp_dx, dp_dy  change of the surface position over one pixel to the right and one pixel along +y
+///               of the screen (any rate: no result depends on the pixel's size)
+/// returns       frame with unit normal, resolve_sign +1
+/// degenerate    zero normal: normalize(cross(dp_dx, dp_dy)), which faces the viewer in a
+///               right-handed space where screen y runs up (negate dp_dy, then the normal, where it
+///               runs down); zero if that vanishes too, which makes every surface gradient and the
+///               resolved normal zero. Zero dp: sigma is zero. NaN propagates.
+/// error         normal 3 eps per component; sigma 4 eps * |dp|
+/// source        Mikkelsen 2019, listing 16
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE Frame<T> make_frame(vec3<T> normal, vec3<T> dp_dx, vec3<T> dp_dy) {
+  return detail::frame_from_unit_normal(detail::unit_normal_or_plane(normal, dp_dx, dp_dy), dp_dx, dp_dy,
+                                        T(value_t<T>(1)));
+}
+
+/// Prologue for double-sided materials.
+///
+/// front_facing  mask: the fragment shows its front side. For an object transform with negative
+///               determinant invert it first (winding turns over, the surface does not).
+/// back_faces    mirror and flip negate the interpolated normal of a back face; flip also sets
+///               resolve_sign. Tangents and bitangents never change side.
+/// degenerate    as above; the normal that stands in for a zero one is negated too.
+/// source        Mikkelsen 2019, listing 16 and section 2.10
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE Frame<T> make_frame(vec3<T> normal, vec3<T> dp_dx, vec3<T> dp_dy,
+                                                       mask_t<T> front_facing, BackFaces back_faces) {
+  const T one = T(value_t<T>(1));
+  const T back_sign = select(front_facing, one, -one);
+  const T normal_sign = back_faces == BackFaces::same ? one : back_sign;
+  const T resolve_sign = back_faces == BackFaces::flip ? back_sign : one;
+  return detail::frame_from_unit_normal(normal_sign * detail::unit_normal_or_plane(normal, dp_dx, dp_dy),
+                                        dp_dx, dp_dy, resolve_sign);
+}
+
+/// Frame for layers that need no derivative of the position: volume, object-space normal and decal
+/// layers. dp and sigma are zero, flip_sign is +1.
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE Frame<T> make_frame(vec3<T> normal) {
+  const vec3<T> zero{T(value_t<T>(0)), T(value_t<T>(0)), T(value_t<T>(0))};
+  return make_frame(normal, zero, zero);
+}
+
+/// Frame of the next pass: bump mapping on top of a resolved normal (section 2.11, post-resolve).
+///
+/// normal   the resolved normal: unit. It already carries the side, so it is never negated again.
+/// returns  frame with sigma and flip_sign recomputed for the new normal; resolve_sign is kept
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr Frame<T> rebase_frame(const Frame<T>& frame, vec3<T> normal) {
+  return detail::frame_from_unit_normal(normal, frame.dp_dx, frame.dp_dy, frame.resolve_sign);
+}
+
+/// The same, where the position changed too (parallax, displacement): dp from screen_derivatives.
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr Frame<T> rebase_frame(const Frame<T>& frame, vec3<T> normal,
+                                                                   vec3<T> dp_dx, vec3<T> dp_dy) {
+  return detail::frame_from_unit_normal(normal, dp_dx, dp_dy, frame.resolve_sign);
+}
+
+/// Vertex tangent space in the form that surface gradients need, still compliant with MikkTSpace.
+///
+/// normal      interpolated vertex normal, neither normalised nor negated: not frame.normal
+/// tangent     interpolated vertex tangent, not normalised
+/// sign        handedness: positive means bitangent = cross(normal, tangent), else its negative
+/// returns     tangent and bitangent, both divided by length(normal): the resolve then equals
+///             normalize(x * tangent + y * bitangent + z * normal) of the raw vectors
+/// degenerate  zero normal: zero vectors, hence no bump
+/// error       4 eps per unit of |tangent| / |normal|
+/// source      Mikkelsen 2019, listing 16 and section 2.2
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE TangentFrame<T> mikktspace_basis(vec3<T> normal, vec3<T> tangent, T sign) {
+  // The longest component brings the length into range: |normal|^2 must not underflow.
+  const T inverse_size = reciprocal_or_zero(max_abs(normal));
+  const vec3<T> n = inverse_size * normal;
+  const T inverse_length = T(value_t<T>(1)) / sqrt(max(constant<T>(0.5), dot(n, n)));
+  const vec3<T> unit = inverse_length * n;
+  const T one = T(value_t<T>(1));
+  return {(inverse_length * inverse_size) * tangent,
+          select(T(value_t<T>(0)) < sign, one, -one) * cross(unit, tangent)};
+}
+
+/// Tangent frame of any texture coordinate, made in place: no vertex tangents needed.
+///
+/// dst_dx, dst_dy  screen-space derivatives of the texture coordinate
+/// returns         orthonormal tangent (direction of +s in the tangent plane) and bitangent (on the
+///                 side of +t), right for clockwise and counter-clockwise coordinates
+/// degenerate      collapsed coordinates (both derivatives parallel to rounding, or zero) and zero
+///                 sigma: zero vectors, hence no bump
+/// error           8 eps * |dst_dx| |dst_dy| / |det(dst_dx, dst_dy)| per component
+/// source          Mikkelsen 2019, listing 6 and section 2.3
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE TangentFrame<T> tangent_basis(const Frame<T>& frame, vec2<T> dst_dx,
+                                                                 vec2<T> dst_dy) {
+  const T zero = T(value_t<T>(0));
+  const T one = T(value_t<T>(1));
+  // Unit rates: the determinant of a microscopic footprint must not underflow.
+  const vec2<T> a = reciprocal_or_zero(max_abs(dst_dx)) * dst_dx;
+  const vec2<T> b = reciprocal_or_zero(max_abs(dst_dy)) * dst_dy;
+  const T det = cross(a, b);
+  const mask_t<T> collapsed = abs(det) < T(epsilon_v<T>);
+  const T sign = select(det < zero, -one, one);
+  // (dx/ds, dy/ds) up to the positive factor 1 / |det|, which normalisation removes. Both rates
+  // share one scale, or the direction would change.
+  const T inverse_rate = reciprocal_or_zero(max(max_abs(dst_dx), max_abs(dst_dy)));
+  const T dx_ds = sign * (inverse_rate * dst_dy.y);
+  const T dy_ds = -(sign * (inverse_rate * dst_dx.y));
+  const vec3<T> tangent = normalize_or_zero(frame.sigma_x * dx_ds + frame.sigma_y * dy_ds);
+  const vec3<T> bitangent = (sign * frame.flip_sign) * cross(frame.normal, tangent);
+  const vec3<T> none{zero, zero, zero};
+  return {select<T>(collapsed, none, tangent), select<T>(collapsed, none, bitangent)};
+}
+
+} // namespace surfgrad

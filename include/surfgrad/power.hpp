@@ -1,0 +1,113 @@
+#pragma once
+
+/// log2, exp2 and pow of any Scalar, without libm: the same bits on every machine and lane.
+///
+/// A Scalar offers no access to exponent bits, so powers of two are split off by a ladder of
+/// selections; the series then run over a fixed, small range.
+
+#include <surfgrad/scalar.hpp>
+
+namespace surfgrad {
+
+namespace detail {
+
+/// Terms after which the series below have fallen under half an ulp.
+template <Scalar T>
+inline constexpr bool single_precision = std::numeric_limits<value_t<T>>::digits <= 24;
+
+/// 2^n for an integer n whose power is a normal number.
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T power_of_two(int n) {
+  value_t<T> result = 1;
+  for (int i = 0; i < (n < 0 ? -n : n); ++i) result *= n < 0 ? value_t<T>(0.5) : value_t<T>(2);
+  return T(result);
+}
+
+} // namespace detail
+
+/// Base-2 logarithm.
+///
+/// a           positive
+/// degenerate  zero, negative, subnormal and NaN arguments give the logarithm of the smallest normal
+///             number (about -126 or -1022): a finite LOD or power is wanted there, never -Inf
+/// error       2 eps * max(1, |log2(a)|)
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T log2(T a) {
+  const T zero = T(value_t<T>(0));
+  const T one = T(value_t<T>(1));
+  constexpr int widest = detail::single_precision<T> ? 64 : 512;
+  T m = max(a, T(std::numeric_limits<value_t<T>>::min()));
+  m = min(m, T(std::numeric_limits<value_t<T>>::max()));
+  T exponent = zero;
+  for (int step = widest; step >= 1; step /= 2) {
+    const T up = detail::power_of_two<T>(step);
+    const T down = detail::power_of_two<T>(-step);
+    const mask_t<T> large = !(m < up);
+    m = select(large, m * down, m);
+    exponent = select(large, exponent + T(static_cast<value_t<T>>(step)), exponent);
+    // m * up < 2 keeps m within [1, 2) at the end: it stops where the next lower step takes over.
+    const mask_t<T> small = m * up < constant<T>(2);
+    m = select(small, m * up, m);
+    exponent = select(small, exponent - T(static_cast<value_t<T>>(step)), exponent);
+  }
+  // Centre the range on 1: m in [sqrt(1/2), sqrt(2)), where log2(m) = 2/ln2 * atanh((m-1)/(m+1)).
+  const mask_t<T> upper = constant<T>(1.41421356237309514547) < m;
+  m = select(upper, m * constant<T>(0.5), m);
+  exponent = select(upper, exponent + one, exponent);
+  const T z = (m - one) / (m + one);
+  const T z2 = z * z;
+  // z2 <= 0.0295: 0.0295^n / (2n + 1) is below 2^-24 from n = 4 and below 2^-53 from n = 10 on.
+  constexpr int terms = detail::single_precision<T> ? 5 : 11;
+  T series = zero;
+  for (int n = terms; n >= 1; --n) series = (series + constant<T>(1.0 / (2 * n + 1))) * z2;
+  constexpr double two_over_ln2 = 2.88539008177792681472;
+  return exponent + constant<T>(two_over_ln2) * (z + z * series);
+}
+
+/// 2 to the power a.
+///
+/// degenerate  saturates: at and below the smallest normal exponent the result is 0, above the largest it
+///             is the largest finite number; NaN gives 0
+/// error       4 eps relative
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T exp2(T a) {
+  const T zero = T(value_t<T>(0));
+  const T one = T(value_t<T>(1));
+  constexpr int widest = detail::single_precision<T> ? 64 : 512;
+  constexpr int lowest = std::numeric_limits<value_t<T>>::min_exponent - 1;
+  constexpr int highest = std::numeric_limits<value_t<T>>::max_exponent;
+  const mask_t<T> vanishes = !(T(static_cast<value_t<T>>(lowest)) < a);
+  const mask_t<T> saturates = !(a < T(static_cast<value_t<T>>(highest)));
+  // NaN is in both masks; the selection below lets vanishes win.
+  T rest = select(vanishes | saturates, zero, a);
+  T power = one;
+  for (int step = widest; step >= 1; step /= 2) {
+    const T s = T(static_cast<value_t<T>>(step));
+    const mask_t<T> large = !(rest < s);
+    power = select(large, power * detail::power_of_two<T>(step), power);
+    rest = select(large, rest - s, rest);
+    const mask_t<T> small = !(-s < rest);
+    power = select(small, power * detail::power_of_two<T>(-step), power);
+    rest = select(small, rest + s, rest);
+  }
+  // rest in (-1, 1): square the exponential of half of it, so that the series converges fast.
+  constexpr double half_ln2 = 0.34657359027997264311;
+  const T x = rest * constant<T>(half_ln2);
+  // |x| <= 0.347: x^n / n! is below 2^-24 from n = 8 and below 2^-53 from n = 14 on.
+  constexpr int terms = detail::single_precision<T> ? 8 : 14;
+  T series = one;
+  for (int n = terms; n >= 1; --n) series = one + x * series * constant<T>(1.0 / n);
+  return select(vanishes, zero,
+                select(saturates, T(std::numeric_limits<value_t<T>>::max()), power * (series * series)));
+}
+
+/// a to the power k, for a >= 0.
+///
+/// degenerate  a = 0 gives 0 for k > 0
+/// error       (4 + 2 * |k * log2(a)|) eps relative: the logarithm's error is raised too
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T pow(T a, T k) {
+  return select(T(value_t<T>(0)) < a, exp2(k * log2(a)), T(value_t<T>(0)));
+}
+
+} // namespace surfgrad

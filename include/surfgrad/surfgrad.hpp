@@ -1,0 +1,17 @@
+#pragma once
+
+/// Surface gradient based bump mapping: the whole core in one include.
+
+#include <surfgrad/decal.hpp>
+#include <surfgrad/derivative.hpp>
+#include <surfgrad/frame.hpp>
+#include <surfgrad/gradient.hpp>
+#include <surfgrad/noise.hpp>
+#include <surfgrad/parallax.hpp>
+#include <surfgrad/parallax_march.hpp>
+#include <surfgrad/power.hpp>
+#include <surfgrad/resolve.hpp>
+#include <surfgrad/scalar.hpp>
+#include <surfgrad/screen.hpp>
+#include <surfgrad/triplanar.hpp>
+#include <surfgrad/vec.hpp>
