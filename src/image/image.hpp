@@ -16,9 +16,9 @@ enum class Depth { unorm8, unorm16, half, float32 };
 struct Image {
   int width = 0;
   int height = 0;
-  int channels = 0;             ///< 1 grey, 2 grey+alpha or rg, 3 rgb, 4 rgba
-  Depth depth = Depth::unorm8;  ///< precision of the source file
-  std::vector<float> texels{};  ///< width * height * channels, row 0 at the bottom
+  int channels = 0;            ///< 1 grey, 2 grey+alpha or rg, 3 rgb, 4 rgba
+  Depth depth = Depth::unorm8; ///< precision of the source file
+  std::vector<float> texels{}; ///< width * height * channels, row 0 at the bottom
 
   [[nodiscard]] std::size_t index(int x, int y, int channel = 0) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *

@@ -1,0 +1,86 @@
+#include "bake/bake.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "io/image_file.hpp"
+#include "options.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <memory>
+
+namespace surfgrad::cli {
+namespace {
+
+struct BakeCommand {
+  CommonOptions common;
+  std::string depth;
+  bake::Options job;
+};
+
+void warn_about(const bake::Baked& baked, Console& console) {
+  const auto warn = [&](std::int64_t count, const char* what) {
+    if (count > 0) console.warn(fmt::format("{} of {} covered texels {}", count, baked.covered, what));
+  };
+  warn(baked.overlapping, "lie under more than one triangle; the first triangle is baked");
+  warn(baked.singular, "have a tangent frame that cannot be inverted; they are flat in the map");
+  warn(baked.clamped, "point below the surface; their steepest slope is baked");
+  warn(baked.degenerate, "had no normal or tangent frame; layers that need one are flat there");
+}
+
+void run(BakeCommand& command) {
+  const Size size = parse_size(command.common.size);
+  command.job.width = size.width;
+  command.job.height = size.height;
+  const std::filesystem::path output = command.common.output;
+  const image::Depth depth = depth_for(output, command.depth, image::Depth::unorm16);
+  io::check_image_output(output, depth);
+  Console console("baking", command.common.quiet);
+  on_threads(command.common.threads, [&] {
+    const scene::Scene scene = open_scene(command.common);
+    const bake::Baked baked = bake::bake(scene, command.job, console.report());
+    io::write_image(output, baked.map, depth);
+    if (command.common.json) {
+      console.say(nlohmann::json({{"output", output.string()},
+                                  {"width", size.width},
+                                  {"height", size.height},
+                                  {"covered_texels", baked.covered},
+                                  {"overlapping_texels", baked.overlapping},
+                                  {"singular_texels", baked.singular},
+                                  {"clamped_texels", baked.clamped},
+                                  {"degenerate_texels", baked.degenerate}})
+                      .dump());
+      return;
+    }
+    warn_about(baked, console);
+    console.say(fmt::format("wrote {} ({}x{}, {} texels covered)", output.string(), size.width, size.height,
+                            baked.covered));
+  });
+}
+
+} // namespace
+
+void add_bake_command(CLI::App& program) {
+  auto command = std::make_shared<BakeCommand>();
+  CLI::App& verb = *program.add_subcommand("bake", "Bake a stack into one ordinary normal map over UV set 0");
+  verb.footer("The map is a MikkTSpace tangent-space normal map, green up: what engines and glTF expect.\n\n"
+              "Examples:\n"
+              "  surfgrad bake -o demo_normal.png                     the built-in demo\n"
+              "  surfgrad bake pirate.json -o pirate_n.png --size 2048\n"
+              "  surfgrad bake pirate.json -o pirate_o.exr --space object");
+  add_common_options(verb, command->common);
+  const std::map<std::string, bake::Space> spaces{
+      {"tangent", bake::Space::tangent}, {"object", bake::Space::object}, {"world", bake::Space::world}};
+  verb.add_option("--space", command->job.space, "tangent (default), object or world")
+      ->transform(CLI::CheckedTransformer(spaces).description(""))
+      ->type_name("NAME")
+      ->option_text("NAME");
+  verb.add_option("--depth", command->depth,
+                  "8, 16, half or float (default: 16 for PNG and TIFF, float for EXR)")
+      ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
+      ->type_name("BITS");
+  verb.callback([command] { run(*command); });
+}
+
+} // namespace surfgrad::cli

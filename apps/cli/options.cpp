@@ -1,0 +1,67 @@
+#include "options.hpp"
+
+#include <charconv>
+
+namespace surfgrad::cli {
+namespace {
+
+constexpr int largest_side = 16384; // what a float picture of 4 GiB holds
+
+bool parse_side(std::string_view text, int& side) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
+  return error == std::errc() && end == text.data() + text.size() && side >= 1 && side <= largest_side;
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string text = file.extension().string();
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+} // namespace
+
+void add_common_options(CLI::App& verb, CommonOptions& options) {
+  verb.add_option("SCENE", options.scene,
+                  "stack document (.json) or model (.gltf, .glb, .obj); without it the built-in demo");
+  verb.add_option("-o,--output", options.output, "file to write; the extension decides the format")
+      ->required()
+      ->type_name("FILE");
+  verb.add_option("--size", options.size, "side in pixels, or WIDTHxHEIGHT")
+      ->capture_default_str()
+      ->type_name("N");
+  verb.add_option("--threads", options.threads, "threads to use; 0 means all")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  verb.add_flag("-q,--quiet", options.quiet, "no progress bar, warnings or summary");
+  verb.add_flag("--json", options.json, "summary as one line of JSON");
+}
+
+Size parse_size(const std::string& text) {
+  const std::size_t x = text.find('x');
+  Size size{};
+  const bool square = x == std::string::npos;
+  if (parse_side(text.substr(0, x), size.width) &&
+      (square || parse_side(std::string_view(text).substr(x + 1), size.height))) {
+    if (square) size.height = size.width;
+    return size;
+  }
+  throw CLI::ValidationError("--size", "\"" + text +
+                                           "\" is not a size; use N or WIDTHxHEIGHT, each from 1 to " +
+                                           std::to_string(largest_side));
+}
+
+scene::Scene open_scene(const CommonOptions& options) {
+  return options.scene.empty() ? scene::demo_scene() : scene::load_scene(options.scene);
+}
+
+image::Depth depth_for(const std::filesystem::path& output, const std::string& depth,
+                       image::Depth integer_default) {
+  if (depth == "8") return image::Depth::unorm8;
+  if (depth == "16") return image::Depth::unorm16;
+  if (depth == "half") return image::Depth::half;
+  if (depth == "float") return image::Depth::float32;
+  return lower_extension(output) == ".exr" ? image::Depth::float32 : integer_default;
+}
+
+} // namespace surfgrad::cli

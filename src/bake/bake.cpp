@@ -1,0 +1,84 @@
+#include "bake/bake.hpp"
+
+#include "bake/tangent_space.hpp"
+#include "diagnostic/error.hpp"
+#include "engine/rows.hpp"
+#include "raster/visibility.hpp"
+#include "stage/stage.hpp"
+
+#include <surfgrad/resolve.hpp>
+
+#include <atomic>
+
+namespace surfgrad::bake {
+namespace {
+
+void check_unwrapped(const scene::Scene& scene) {
+  for (const scene::Object& object : scene.objects)
+    if (scene.meshes[object.mesh].uv_sets.empty())
+      throw InputError({.place = "mesh \"" + object.name + "\"",
+                        .problem = "has no texture coordinates to bake over",
+                        .remedy = "unwrap it first (UV set 0)"});
+}
+
+struct Counts {
+  std::atomic<std::int64_t> covered{0}, singular{0}, clamped{0}, degenerate{0};
+};
+
+/// Composed normal of the texel (x, y) in the space asked for.
+vec3<double> texel_normal(const stage::Stage& stage, const scene::Scene& scene, std::size_t slot,
+                          const raster::Visible& what, const Options& options, int x, int y, Counts& counts) {
+  const raster::Surface& surface = stage.surfaces()[what.surface];
+  const raster::TrianglePlanes planes =
+      raster::uv_planes(surface, slot, what.triangle, options.width, options.height);
+  raster::Fragment<double> fragment = raster::make_fragment(surface, what.triangle, planes, x + 0.5, y + 0.5);
+  fragment.front_facing = true; // winding in a texture says mirrored, not turned away
+  const engine::Composition<double> c = stage.compose(what, fragment);
+  ++counts.covered;
+  counts.degenerate += c.degenerate;
+  if (options.space == Space::world) return c.normal;
+  if (options.space == Space::object) {
+    // The transpose of M takes normals back: it is the inverse of the inverse transpose.
+    const mat3<double> linear = stage::linear_part(scene.objects[what.surface].world_from_object);
+    return normalize_or_zero(transpose(linear) * c.normal);
+  }
+  const raster::UvFragment<double>& uv = fragment.uvs[slot];
+  const TangentNormal t = in_vertex_frame(fragment.normal, uv.tangent, uv.sign, c.normal);
+  counts.singular += t.singular;
+  counts.clamped += t.clamped;
+  return t.normal;
+}
+
+} // namespace
+
+Baked bake(const scene::Scene& scene, const Options& options, const Report& report) {
+  check_unwrapped(scene);
+  const stage::Stage stage(scene, {0, 0, 0}, {{0, options.space == Space::tangent}}, report);
+  const std::size_t slot = stage.slot_of(0);
+  Baked baked;
+  const raster::VisibilityBuffer layout =
+      raster::lay_out_in_uv(stage.surfaces(), slot, options.width, options.height, &baked.overlapping);
+  baked.map = image::make_image(options.width, options.height, 3, image::Depth::unorm16);
+  Counts counts;
+  engine::for_each_row(options.height, report, [&](int y) {
+    for (int x = 0; x < options.width; ++x) {
+      const raster::Visible& what = layout.at(x, y);
+      const vec3<double> n = what.surface == raster::Visible::none
+                                 ? vec3<double>{0, 0, 1}
+                                 : texel_normal(stage, scene, slot, what, options, x, y, counts);
+      baked.map.at(x, y, 0) = static_cast<float>(0.5 * n.x + 0.5);
+      baked.map.at(x, y, 1) = static_cast<float>(0.5 * n.y + 0.5);
+      baked.map.at(x, y, 2) = static_cast<float>(0.5 * n.z + 0.5);
+    }
+  });
+  if (counts.covered == 0)
+    throw InputError({.problem = "no triangle covers a texel of the unit square of UV set 0",
+                      .remedy = "check the mesh's texture coordinates, or bake at a larger size"});
+  baked.covered = counts.covered;
+  baked.singular = counts.singular;
+  baked.clamped = counts.clamped;
+  baked.degenerate = counts.degenerate;
+  return baked;
+}
+
+} // namespace surfgrad::bake

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "diagnostic/report.hpp"
+#include "image/image.hpp"
+#include "scene/scene.hpp"
+
+#include <cstdint>
+
+namespace surfgrad::bake {
+
+/// Space of the baked normals.
+enum class Space {
+  tangent, ///< MikkTSpace of UV set 0, green up: what engines decode with the mesh's tangents
+  object,
+  world,
+};
+
+struct Options {
+  int width = 1024;
+  int height = 1024;
+  Space space = Space::tangent;
+};
+
+struct Baked {
+  image::Image map; ///< rgb, n / 2 + 1/2; (0, 0, 1) where no surface lies
+  std::int64_t covered = 0;
+  std::int64_t overlapping = 0; ///< texels that more than one triangle covers; the lowest index wins
+  std::int64_t singular = 0;    ///< texels whose vertex frame cannot be inverted: flat in the map
+  std::int64_t clamped = 0;     ///< texels whose normal lies below the tangent plane: steepest slope
+  std::int64_t degenerate = 0;  ///< texels where a layer's own frame did not exist: that layer is flat
+};
+
+/// Bakes a scene's stack into one normal map over UV set 0, at texel centres, with the reference
+/// engine. Back faces do not occur: the surface is seen from its front.
+///
+/// Throws InputError when a mesh has no UV set 0 or nothing lies in [0, 1]^2. Same bytes for any
+/// number of threads.
+[[nodiscard]] Baked bake(const scene::Scene& scene, const Options& options, const Report& report = {});
+
+} // namespace surfgrad::bake

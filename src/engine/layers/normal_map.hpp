@@ -1,0 +1,49 @@
+#pragma once
+
+#include "engine/layers/texture.hpp"
+
+#include <surfgrad/gradient.hpp>
+
+namespace surfgrad::engine {
+
+/// A tangent-space normal map, stored as slopes.
+struct NormalMap {
+  Influence influence{};
+  Texture texture{};
+  bool derived = false; ///< tangent frame from the texture coordinate, else the vertex frame
+};
+
+/// The vertex frame for a later pass: its tangent turned into the plane of the new base normal, its
+/// bitangent kept on its own side. In the first pass the frame is used as MikkTSpace defines it.
+template <Scalar T>
+[[nodiscard]] TangentFrame<T> rebased_basis(const Frame<T>& frame, const TangentFrame<T>& vertex) {
+  const T one = T(value_t<T>(1));
+  const vec3<T> tangent = normalize_or_zero(from_volume_gradient(frame.normal, vertex.tangent));
+  const vec3<T> bitangent = cross(frame.normal, tangent);
+  const T side = select(dot(bitangent, vertex.bitangent) < T(value_t<T>(0)), -one, one);
+  return {tangent, side * bitangent};
+}
+
+/// Surface gradient of a tangent-space normal map at a fragment.
+///
+/// first_pass   uniform: no resolve came before
+/// degenerate   (out) set where the texture coordinate or the vertex frame has collapsed; the
+///              gradient is zero there
+template <LaneScalar T>
+[[nodiscard]] vec3<T> surface_gradient(const NormalMap& layer, const raster::Fragment<T>& fragment,
+                                       const Frame<T>& frame, bool first_pass, mask_t<T>& degenerate) {
+  const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(layer.texture.slot)];
+  TangentFrame<T> basis;
+  if (layer.derived) {
+    basis = tangent_basis(frame, uv.dst_dx, uv.dst_dy);
+  } else {
+    basis = mikktspace_basis(fragment.normal, uv.tangent, uv.sign);
+    if (!first_pass) basis = rebased_basis(frame, basis);
+  }
+  degenerate = degenerate | (max_abs(basis.tangent) == T(value_t<T>(0)));
+  const std::array<T, 2> slope = sample<2>(layer.texture, fragment);
+  return from_tbn(along_coordinate(layer.texture, vec2<T>{slope[0], slope[1]}), basis.tangent,
+                  basis.bitangent);
+}
+
+} // namespace surfgrad::engine

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "engine/layers/texture.hpp"
+
+#include <surfgrad/gradient.hpp>
+#include <surfgrad/resolve.hpp>
+
+namespace surfgrad::engine {
+
+/// A map of whole normals in object or world space.
+struct ObjectNormalMap {
+  Influence influence{};
+  Texture texture{};
+  bool world = false; ///< already in world space: the object's transform does not touch it
+};
+
+/// Surface gradient of an object- or world-space normal map at a fragment.
+///
+/// world_from_object  linear part of the object's transform: object-space normals follow its scale
+/// degenerate         (out) set where the map holds no direction; the gradient is zero there
+template <LaneScalar T>
+[[nodiscard]] vec3<T> surface_gradient(const ObjectNormalMap& layer, const raster::Fragment<T>& fragment,
+                                       const Frame<T>& frame, const mat3<T>& world_from_object,
+                                       mask_t<T>& degenerate) {
+  const std::array<T, 3> texel = sample<3>(layer.texture, fragment);
+  vec3<T> v{texel[0], texel[1], texel[2]};
+  degenerate = degenerate | (max_abs(v) == T(value_t<T>(0)));
+  if (!layer.world) v = transform_normal(world_from_object, v);
+  return from_perturbed_normal(frame.normal, v);
+}
+
+} // namespace surfgrad::engine

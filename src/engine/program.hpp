@@ -1,0 +1,58 @@
+#pragma once
+
+#include "engine/layers/normal_map.hpp"
+#include "engine/layers/object_normal_map.hpp"
+#include "image/image.hpp"
+#include "raster/surface.hpp"
+#include "stack/stack.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <variant>
+#include <vector>
+
+namespace surfgrad::engine {
+
+/// Ends a pass.
+struct Resolve {};
+
+/// The layers of one material, ready to run: maps loaded, numbers folded.
+struct Program {
+  std::vector<std::variant<NormalMap, ObjectNormalMap, Resolve>> layers;
+};
+
+/// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the
+/// vertex frame. Appends to `slots`; throws InputError when a scene needs more than max_uv_slots.
+void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raster::UvSlot>& slots);
+
+/// Turns images into sampled maps, each combination once, and counts what was odd about them.
+class MapLibrary {
+ public:
+  /// find returns the image of a file named in a layer; it stays alive as long as the library.
+  explicit MapLibrary(std::function<const image::Image&(const std::filesystem::path&)> find)
+      : find_(std::move(find)) {}
+
+  std::shared_ptr<const image::Map> slopes(const stack::Map& use);
+  std::shared_ptr<const image::Map> directions(const stack::Map& use);
+  std::shared_ptr<const image::Map> channel(const stack::Mask& use);
+
+  /// A normal map with texels that point into the surface (z <= 0), which no height field has.
+  struct InwardTexels {
+    std::filesystem::path file;
+    std::int64_t count;
+    std::int64_t of;
+  };
+  [[nodiscard]] const std::vector<InwardTexels>& inward_texels() const { return inward_; }
+
+ private:
+  std::function<const image::Image&(const std::filesystem::path&)> find_;
+  std::map<std::string, std::shared_ptr<const image::Map>> maps_;
+  std::vector<InwardTexels> inward_;
+};
+
+/// Compiles the layers of one material for surfaces that carry `slots`.
+[[nodiscard]] Program compile(const std::vector<stack::Layer>& layers,
+                              const std::vector<raster::UvSlot>& slots, MapLibrary& maps);
+
+} // namespace surfgrad::engine

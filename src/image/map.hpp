@@ -1,0 +1,58 @@
+#pragma once
+
+#include "image/image.hpp"
+
+#include <surfgrad/scalar.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace surfgrad::image {
+
+/// Which channels of a tangent-space normal map are believed.
+enum class NormalChannels {
+  automatic, ///< xy for two-channel images and for a constant third channel, else xyz
+  xyz,       ///< three channels; the vector may have any length
+  xy,        ///< two channels, z reconstructed for a unit vector
+};
+
+/// A map ready for sampling: float components, a full mip pyramid, whole 32-bit words.
+///
+/// What is filtered is what a level averages: slopes average linearly (a tilted map keeps its tilt
+/// down to 1x1), normals do not, so normal maps become slopes before the pyramid is built.
+struct Map {
+  int components = 0;                       ///< floats a texel: 1 scalar, 2 slope, 3 direction
+  int level_count = 0;                      ///< at least 1
+  std::vector<std::uint32_t> words{};       ///< float bits, level after level, row 0 at the bottom
+  std::vector<std::uint32_t> level_table{}; ///< width, height, first word: three words a level
+
+  [[nodiscard]] int width(int level = 0) const { return static_cast<int>(level_table[3 * level]); }
+  [[nodiscard]] int height(int level = 0) const { return static_cast<int>(level_table[3 * level + 1]); }
+  [[nodiscard]] Words texels() const { return {words.data(), static_cast<std::int32_t>(words.size())}; }
+  [[nodiscard]] Words levels() const {
+    return {level_table.data(), static_cast<std::int32_t>(level_table.size())};
+  }
+};
+
+/// A map together with what its texels were like.
+struct SlopeMap {
+  Map map{};
+  NormalChannels channels = NormalChannels::xyz; ///< what `automatic` decided
+  std::int64_t inward_texels = 0;                ///< z <= 0: no height field has them
+};
+
+/// Slopes of a tangent-space normal map (code values 0..1 mean -1..1).
+///
+/// green_up  the map's green grows with t; false negates the second slope (section 2.1)
+/// source    derivative_from_normal, texel by texel
+[[nodiscard]] SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up);
+
+/// Unit directions of an object- or world-space normal map; zero vectors stay zero.
+/// The image must have at least three channels.
+[[nodiscard]] Map make_direction_map(const Image& image);
+
+/// One channel as a scalar map; a channel that the image lacks reads as the last one it has, except
+/// alpha, which reads as 1.
+[[nodiscard]] Map make_channel_map(const Image& image, int channel);
+
+} // namespace surfgrad::image

@@ -1,0 +1,90 @@
+#pragma once
+
+// Internal to src/io: one decoder a format, from memory, and what they share. Use io/image_file.hpp.
+
+#include "image/image.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace surfgrad::io::codec {
+
+// Larger sides than any graphics device accepts; 2^28 texels of four floats fill 4 GiB.
+inline constexpr std::uint64_t max_side = 65536;
+inline constexpr std::uint64_t max_texels = std::uint64_t{1} << 28;
+
+// Deflate turns one byte into at most 1032; the rest allows for headers and padding.
+inline constexpr std::uint64_t deflate_expansion = 1100;
+
+/// The content of one file, with what its error messages have in common.
+struct Source {
+  std::span<const std::byte> bytes;
+  const std::filesystem::path& file; ///< for messages only: nothing is opened
+  std::string_view format;           ///< as users call it, e.g. `PNG`
+
+  /// Throws InputError. `problem` completes a sentence that begins with the format.
+  [[noreturn]] void fail(std::string_view problem, std::string remedy, std::string place = {}) const;
+
+  /// Throws InputError for content that breaks off or breaks its format's rules; `detail` says how.
+  [[noreturn]] void fail_damaged(std::string_view detail) const;
+
+  /// Throws InputError unless both sides lie in [1, max_side] and the area within max_texels.
+  void check_size(std::uint64_t width, std::uint64_t height) const;
+
+  /// Throws InputError where `raw_bytes` of pixel data cannot have been packed into this file by a
+  /// compression that shrinks at most `max_expansion` times. Call it before allocating.
+  void check_plausible(std::uint64_t raw_bytes, std::uint64_t max_expansion) const;
+
+  [[nodiscard]] std::uint8_t byte(std::size_t i) const { return std::to_integer<std::uint8_t>(bytes[i]); }
+};
+
+/// The float of an integer code: code / max code, correctly rounded.
+[[nodiscard]] inline float from_code(std::uint8_t code) { return static_cast<float>(code) / 255.0f; }
+[[nodiscard]] inline float from_code(std::uint16_t code) { return static_cast<float>(code) / 65535.0f; }
+
+/// The nearest integer code to a value: below 0 and NaN give 0, above 1 gives the largest code.
+template <class Code>
+[[nodiscard]] Code to_code(float value) {
+  constexpr float largest = static_cast<float>(static_cast<Code>(~Code{0}));
+  if (!(value > 0.0f)) return 0; // also NaN
+  if (value >= 1.0f) return static_cast<Code>(~Code{0});
+  return static_cast<Code>(value * largest + 0.5f);
+}
+
+/// Row of the image (0 at the bottom) that holds row `file_row` of a file (0 at the top), and back.
+[[nodiscard]] inline int flipped(const image::Image& image, int file_row) {
+  return image.height - 1 - file_row;
+}
+
+/// One row of an image: width * channels floats.
+[[nodiscard]] inline std::span<float> row(image::Image& image, int y) {
+  return {image.texels.data() + image.index(0, y), image.index(image.width, 0)};
+}
+[[nodiscard]] inline std::span<const float> row(const image::Image& image, int y) {
+  return {image.texels.data() + image.index(0, y), image.index(image.width, 0)};
+}
+
+// Each decoder throws InputError for content it cannot turn into a whole image, std::bad_alloc
+// where memory runs out. Content whose magic it does not know never reaches it.
+[[nodiscard]] image::Image decode_png(const Source& source);
+[[nodiscard]] image::Image decode_tiff(const Source& source);
+[[nodiscard]] image::Image decode_exr(const Source& source);
+[[nodiscard]] image::Image decode_jpeg(const Source& source);
+[[nodiscard]] image::Image decode_hdr(const Source& source);
+[[nodiscard]] image::Image decode_tga(const Source& source);
+
+/// TGA has no magic: whether the first bytes can be the header of one.
+[[nodiscard]] bool could_be_tga(std::span<const std::byte> bytes);
+
+// Each encoder takes an image of 1 to 4 channels within the limits above and a depth its format
+// holds. Throws MachineError where the library fails, std::bad_alloc where memory runs out.
+[[nodiscard]] std::vector<std::byte> encode_png(const image::Image& image, image::Depth depth);
+[[nodiscard]] std::vector<std::byte> encode_tiff(const image::Image& image, image::Depth depth);
+[[nodiscard]] std::vector<std::byte> encode_exr(const image::Image& image, image::Depth depth);
+
+} // namespace surfgrad::io::codec

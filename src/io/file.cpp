@@ -1,0 +1,149 @@
+#include "io/file.hpp"
+
+#include "diagnostic/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <random>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace fs = std::filesystem;
+
+namespace surfgrad::io {
+namespace {
+
+// Twice the largest image the readers accept (2^28 texels of four floats): a sparse file of a
+// terabyte must not be read into memory.
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{8} << 30;
+
+[[noreturn]] void cannot_write(const fs::path& file, std::string_view doing, int error_number) {
+  throw MachineError(
+      fmt::format("{}: cannot {}: {}", file.string(), doing, std::generic_category().message(error_number)));
+}
+
+/// Where the bytes really go: the target of a symbolic link, checked to be a name a file can take.
+fs::path checked_target(const fs::path& file) {
+  std::error_code error;
+  const fs::path target = fs::is_symlink(file, error) ? fs::weakly_canonical(file, error) : file;
+  if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+    cannot_write(file, "resolve this path", error.value());
+  if (target.filename().empty() || target.filename() == "." || target.filename() == "..")
+    throw InputError(
+        {.file = file, .problem = "not a file name", .remedy = "give the name of a file to write"});
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    throw InputError({.file = file,
+                      .problem = fmt::format("folder \"{}\" does not exist", folder.string()),
+                      .remedy = "create it or write to an existing folder"});
+  // Renaming over a device or a pipe would replace it with a file.
+  if (fs::exists(target, error) && !fs::is_regular_file(target, error))
+    throw InputError({.file = file,
+                      .problem = fs::is_directory(target, error) ? "is a folder" : "is not a regular file",
+                      .remedy = "give the name of a file to write"});
+  return target;
+}
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+/// A new file beside the target, removed again unless it is renamed into place.
+class Temporary {
+ public:
+  explicit Temporary(fs::path target) : target_(std::move(target)) {
+    std::random_device random;
+    // A name clash is a matter of 1 in 2^32 a leftover file; a few attempts are plenty.
+    for (int attempt = 0; attempt < 8 && !stream_; ++attempt) {
+      path_ = target_.parent_path() / fmt::format(".surfgrad-{:08x}.partial", random());
+      stream_.reset(std::fopen(path_.string().c_str(), "wbx"));
+      if (!stream_ && errno != EEXIST) break;
+    }
+    if (!stream_) cannot_write(target_, "create a file in this folder", errno);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  ~Temporary() {
+    stream_.reset();
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove(path_, ignored);
+  }
+
+  void write(std::span<const std::byte> bytes) {
+    if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size())
+      cannot_write(target_, "write", errno);
+  }
+
+  void rename_into_place() {
+    // A full disk may show only when the last buffered bytes go out.
+    if (std::fflush(stream_.get()) != 0) cannot_write(target_, "write", errno);
+    if (std::fclose(stream_.release()) != 0) cannot_write(target_, "write", errno);
+    std::error_code error;
+    fs::rename(path_, target_, error);
+    if (error) cannot_write(target_, "move the finished file into place", error.value());
+    path_.clear();
+  }
+
+ private:
+  fs::path target_;
+  fs::path path_{};
+  std::unique_ptr<std::FILE, CloseFile> stream_{};
+};
+
+} // namespace
+
+std::vector<std::byte> read_file(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found)
+    throw InputError({.file = file, .problem = "no such file", .remedy = "check the path"});
+  if (status.type() == fs::file_type::none)
+    throw InputError({.file = file,
+                      .problem = fmt::format("cannot be reached: {}", error.message()),
+                      .remedy = "check the path and its permissions"});
+  if (status.type() == fs::file_type::directory)
+    throw InputError({.file = file, .problem = "is a folder", .remedy = "give the name of a file"});
+  if (status.type() != fs::file_type::regular)
+    throw InputError({.file = file, .problem = "is not a regular file", .remedy = "give the name of a file"});
+
+  const std::uintmax_t size = fs::file_size(file, error);
+  std::ifstream stream(file, std::ios::binary);
+  if (error || !stream)
+    throw InputError({.file = file,
+                      .problem = "cannot be opened for reading",
+                      .remedy = "check the permissions of the file"});
+  if (size > max_file_bytes)
+    throw InputError({.file = file,
+                      .problem = fmt::format("has {} bytes", size),
+                      .remedy = fmt::format("at most {} bytes can be read", max_file_bytes)});
+  std::vector<std::byte> bytes;
+  try {
+    bytes.resize(static_cast<std::size_t>(size));
+  } catch (const std::bad_alloc&) {
+    throw MachineError(fmt::format("{}: not enough memory to read {} bytes", file.string(), size));
+  }
+  if (size > 0) stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (!stream)
+    throw InputError({.file = file,
+                      .problem = fmt::format("only {} of {} bytes could be read", stream.gcount(), size),
+                      .remedy = "check that nothing else changes the file and that its disk is sound"});
+  return bytes;
+}
+
+void write_file(const fs::path& file, std::span<const std::byte> bytes) {
+  Temporary temporary(checked_target(file));
+  temporary.write(bytes);
+  temporary.rename_into_place();
+}
+
+void check_writable(const fs::path& file) { const Temporary temporary(checked_target(file)); }
+
+} // namespace surfgrad::io

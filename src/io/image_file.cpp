@@ -1,0 +1,219 @@
+#include "io/image_file.hpp"
+
+#include "diagnostic/error.hpp"
+#include "io/codecs.hpp"
+#include "io/file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace fs = std::filesystem;
+
+namespace surfgrad::io {
+namespace codec {
+
+void Source::fail(std::string_view problem, std::string remedy, std::string place) const {
+  throw InputError({.file = file,
+                    .place = std::move(place),
+                    .problem = fmt::format("{} {}", format, problem),
+                    .remedy = std::move(remedy)});
+}
+
+void Source::fail_damaged(std::string_view detail) const {
+  fail(fmt::format("is damaged or truncated: {}", detail), "save or copy the file again");
+}
+
+void Source::check_size(std::uint64_t width, std::uint64_t height) const {
+  if (width >= 1 && height >= 1 && width <= max_side && height <= max_side && width * height <= max_texels)
+    return;
+  fail(fmt::format("declares {} x {} texels", width, height),
+       fmt::format("sides must lie in [1, {}] and the area within {} texels", max_side, max_texels));
+}
+
+void Source::check_plausible(std::uint64_t raw_bytes, std::uint64_t max_expansion) const {
+  // Small images may be stored badly; below this an allocation does no harm.
+  constexpr std::uint64_t slack = 65536;
+  if (raw_bytes <= slack || (raw_bytes - slack) / max_expansion <= bytes.size()) return;
+  fail_damaged(fmt::format("declares {} bytes of pixel data, more than {} bytes of file can hold", raw_bytes,
+                           bytes.size()));
+}
+
+} // namespace codec
+
+namespace {
+
+using image::Depth;
+using image::Image;
+
+struct Reader {
+  std::string_view name;
+  std::string_view magic; ///< the first bytes of every such file
+  Image (*decode)(const codec::Source&);
+};
+
+using namespace std::string_view_literals;
+
+constexpr std::array readers{
+    Reader{"PNG", "\x89PNG\r\n\x1a\n"sv, codec::decode_png},
+    Reader{"TIFF", "II*\0"sv, codec::decode_tiff},
+    Reader{"TIFF", "MM\0*"sv, codec::decode_tiff},
+    Reader{"TIFF", "II+\0"sv, codec::decode_tiff}, // BigTIFF
+    Reader{"TIFF", "MM\0+"sv, codec::decode_tiff},
+    Reader{"EXR", "\x76\x2f\x31\x01"sv, codec::decode_exr},
+    Reader{"JPEG", "\xff\xd8\xff"sv, codec::decode_jpeg},
+    Reader{"HDR", "#?RADIANCE\n"sv, codec::decode_hdr},
+    Reader{"HDR", "#?RGBE\n"sv, codec::decode_hdr},
+};
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view magic) {
+  return bytes.size() >= magic.size() &&
+         std::equal(magic.begin(), magic.end(), bytes.begin(), [](char c, std::byte b) {
+           return static_cast<std::byte>(static_cast<unsigned char>(c)) == b;
+         });
+}
+
+std::string lower_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+Reader find_reader(std::span<const std::byte> bytes, const fs::path& name) {
+  if (bytes.empty())
+    throw InputError({.file = name, .problem = "is empty", .remedy = "give the name of an image file"});
+  for (const Reader& reader : readers)
+    if (starts_with(bytes, reader.magic)) return reader;
+  if (lower_extension(name) == ".tga" || codec::could_be_tga(bytes)) return {"TGA", {}, codec::decode_tga};
+  throw InputError({.file = name,
+                    .problem = "is not an image in a known format",
+                    .remedy = "expected one of: PNG, TIFF, OpenEXR, JPEG, Radiance HDR, TGA"});
+}
+
+struct Writer {
+  std::string_view name;
+  ImageFormat format;
+  std::array<std::string_view, 2> extensions;
+  std::array<std::optional<Depth>, 3> depths;
+  std::string_view depth_names;
+  std::vector<std::byte> (*encode)(const Image&, Depth);
+};
+
+constexpr std::array writers{
+    Writer{"PNG",
+           ImageFormat::png,
+           {".png"},
+           {Depth::unorm8, Depth::unorm16},
+           "8-bit or 16-bit integers",
+           codec::encode_png},
+    Writer{"TIFF",
+           ImageFormat::tiff,
+           {".tif", ".tiff"},
+           {Depth::unorm8, Depth::unorm16, Depth::float32},
+           "8-bit integers, 16-bit integers or 32-bit floats",
+           codec::encode_tiff},
+    Writer{"EXR",
+           ImageFormat::exr,
+           {".exr"},
+           {Depth::half, Depth::float32},
+           "16-bit or 32-bit floats",
+           codec::encode_exr},
+};
+
+std::string_view depth_name(Depth depth) {
+  switch (depth) {
+  case Depth::unorm8:
+    return "8-bit integers";
+  case Depth::unorm16:
+    return "16-bit integers";
+  case Depth::half:
+    return "16-bit floats";
+  case Depth::float32:
+    return "32-bit floats";
+  }
+  return "values of an unknown kind";
+}
+
+const Writer& find_writer(const fs::path& file) {
+  const std::string extension = lower_extension(file);
+  const auto takes = [&](const Writer& writer) {
+    return !extension.empty() &&
+           std::count(writer.extensions.begin(), writer.extensions.end(), extension) > 0;
+  };
+  const auto writer = std::find_if(writers.begin(), writers.end(), takes);
+  if (writer == writers.end())
+    throw InputError({.file = file,
+                      .problem = fmt::format("no image format for the extension \"{}\"", extension),
+                      .remedy = "expected one of: .png, .tif, .tiff, .exr"});
+  return *writer;
+}
+
+void require_depth(const Writer& writer, Depth depth, const fs::path& file) {
+  if (std::count(writer.depths.begin(), writer.depths.end(), std::optional(depth)) > 0) return;
+  throw InputError({.file = file,
+                    .problem = fmt::format("{} cannot hold {}", writer.name, depth_name(depth)),
+                    .remedy = fmt::format("{} holds {}", writer.name, writer.depth_names)});
+}
+
+const Writer& find_writer(ImageFormat format) {
+  const auto writer =
+      std::find_if(writers.begin(), writers.end(), [&](const Writer& w) { return w.format == format; });
+  if (writer == writers.end()) throw std::invalid_argument("encode_image: unknown format");
+  return *writer;
+}
+
+std::vector<std::byte> encode(const Image& image, Depth depth, const Writer& writer, const fs::path& file) {
+  require_depth(writer, depth, file);
+  if (image.channels < 1 || image.channels > 4)
+    throw InputError({.file = file,
+                      .problem = fmt::format("cannot write an image of {} channels", image.channels),
+                      .remedy = "an image file has 1 to 4 channels"});
+  const auto width = static_cast<std::uint64_t>(std::max(image.width, 0));
+  const auto height = static_cast<std::uint64_t>(std::max(image.height, 0));
+  codec::Source{{}, file, writer.name}.check_size(width, height);
+  if (image.texels.size() != width * height * static_cast<std::uint64_t>(image.channels))
+    throw std::invalid_argument("encode_image: texel count does not match the image's shape");
+  try {
+    return writer.encode(image, depth);
+  } catch (const std::bad_alloc&) {
+    throw MachineError(
+        fmt::format("{}: not enough memory to encode {} x {} texels", file.string(), width, height));
+  }
+}
+
+} // namespace
+
+Image read_image(const fs::path& file) { return decode_image(read_file(file), file); }
+
+Image decode_image(std::span<const std::byte> bytes, const fs::path& name) {
+  const Reader reader = find_reader(bytes, name);
+  try {
+    return reader.decode({bytes, name, reader.name});
+  } catch (const std::bad_alloc&) {
+    throw MachineError(fmt::format("{}: not enough memory to decode this image", name.string()));
+  }
+}
+
+std::vector<std::byte> encode_image(const Image& image, Depth depth, ImageFormat format) {
+  return encode(image, depth, find_writer(format), {});
+}
+
+void write_image(const fs::path& file, const Image& image, Depth depth) {
+  write_file(file, encode(image, depth, find_writer(file), file));
+}
+
+void check_image_output(const fs::path& file, Depth depth) {
+  require_depth(find_writer(file), depth, file);
+  check_writable(file);
+}
+
+} // namespace surfgrad::io

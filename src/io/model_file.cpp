@@ -1,0 +1,42 @@
+#include "io/model_file.hpp"
+
+#include "diagnostic/error.hpp"
+#include "io/file.hpp"
+#include "io/gltf.hpp"
+#include "io/obj.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace surfgrad::io {
+namespace {
+
+/// The extension in lower case, whatever the locale.
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+} // namespace
+
+Model read_model(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  if (extension != ".gltf" && extension != ".glb" && extension != ".obj")
+    throw InputError{{.file = file,
+                      .problem = extension.empty() ? "has no extension"
+                                                   : "\"" + extension + "\" is not a model's extension",
+                      .remedy = "expected .gltf, .glb or .obj"}};
+  std::vector<std::byte> bytes = read_file(file);
+  if (bytes.empty()) throw InputError{{.file = file, .problem = "is empty", .remedy = "expected a model"}};
+  if (extension == ".obj") return read_obj(file, bytes);
+  return read_gltf(file, std::move(bytes));
+}
+
+} // namespace surfgrad::io

@@ -1,0 +1,175 @@
+#include "diagnostic/error.hpp"
+#include "io/codecs.hpp"
+
+#include <fmt/format.h>
+#include <spng.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+
+namespace surfgrad::io::codec {
+namespace {
+
+using image::Depth;
+using image::Image;
+
+struct FreeContext {
+  void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, FreeContext>;
+
+Context new_context(int flags) {
+  Context context(spng_ctx_new(flags));
+  if (!context) throw std::bad_alloc();
+  return context;
+}
+
+/// How the library is asked to deliver a file, and which of its samples are kept.
+struct Layout {
+  int format = SPNG_FMT_PNG;
+  int flags = 0;
+  int stored = 0;                      ///< samples a texel in the decoded buffer
+  int channels = 0;                    ///< samples a texel in the image
+  std::array<int, 4> kept{0, 1, 2, 3}; ///< which stored sample becomes each channel
+};
+
+Layout choose_layout(const spng_ihdr& header, bool transparent) {
+  const bool deep = header.bit_depth == 16;
+  switch (header.color_type) {
+  case SPNG_COLOR_TYPE_GRAYSCALE:
+    // The library expands grey transparency only to RGBA at every bit depth.
+    if (transparent) return {deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS, 4, 2, {0, 3}};
+    return {deep ? SPNG_FMT_PNG : SPNG_FMT_G8, 0, 1, 1};
+  case SPNG_COLOR_TYPE_TRUECOLOR:
+    if (transparent) return {deep ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8, SPNG_DECODE_TRNS, 4, 4};
+    return {SPNG_FMT_PNG, 0, 3, 3};
+  case SPNG_COLOR_TYPE_INDEXED:
+    if (transparent) return {SPNG_FMT_RGBA8, SPNG_DECODE_TRNS, 4, 4};
+    return {SPNG_FMT_RGB8, 0, 3, 3};
+  case SPNG_COLOR_TYPE_GRAYSCALE_ALPHA:
+    return {SPNG_FMT_PNG, 0, 2, 2};
+  default:
+    return {SPNG_FMT_PNG, 0, 4, 4}; // RGBA: the library refuses other types with the header
+  }
+}
+
+template <class Code>
+void store(const std::vector<std::byte>& raw, const Layout& layout, Image& image) {
+  const auto stored = static_cast<std::size_t>(layout.stored);
+  const std::byte* next = raw.data();
+  for (int y = 0; y < image.height; ++y) {
+    float* out = row(image, flipped(image, y)).data();
+    for (int x = 0; x < image.width; ++x, next += stored * sizeof(Code))
+      for (int channel = 0; channel < image.channels; ++channel) {
+        Code code;
+        std::memcpy(&code, next + static_cast<std::size_t>(layout.kept[channel]) * sizeof(Code), sizeof code);
+        *out++ = from_code(code);
+      }
+  }
+}
+
+[[noreturn]] void fail_encoding(int error) {
+  throw MachineError(fmt::format("cannot encode PNG: {}", spng_strerror(error)));
+}
+
+template <class Code>
+void encode_rows(spng_ctx* context, const Image& image) {
+  std::vector<Code> codes(row(image, 0).size());
+  for (int y = 0; y < image.height; ++y) {
+    const auto values = row(image, flipped(image, y));
+    std::transform(values.begin(), values.end(), codes.begin(), to_code<Code>);
+    const int error = spng_encode_row(context, codes.data(), codes.size() * sizeof(Code));
+    if (error != 0 && error != SPNG_EOI) fail_encoding(error);
+  }
+}
+
+} // namespace
+
+Image decode_png(const Source& source) {
+  const Context context = new_context(0);
+  const auto check = [&](int error) {
+    if (error == SPNG_EMEM) throw std::bad_alloc();
+    if (error != 0) source.fail_damaged(spng_strerror(error));
+  };
+  check(spng_set_png_buffer(context.get(), source.bytes.data(), source.bytes.size()));
+  // Colour profiles and texts may unfold to more than the file, but not to more than any real one.
+  const std::size_t chunk_limit = std::max<std::size_t>(source.bytes.size(), std::size_t{16} << 20);
+  check(spng_set_chunk_limits(context.get(), chunk_limit, chunk_limit));
+
+  spng_ihdr header{};
+  check(spng_get_ihdr(context.get(), &header));
+  source.check_size(header.width, header.height);
+  const std::uint64_t file_samples = header.color_type == SPNG_COLOR_TYPE_TRUECOLOR         ? 3
+                                     : header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA ? 2
+                                     : header.color_type == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA ? 4
+                                                                                            : 1;
+  const std::uint64_t row_bytes = (header.width * file_samples * header.bit_depth + 7) / 8;
+  source.check_plausible(row_bytes * header.height, deflate_expansion);
+
+  spng_trns transparency{};
+  const int transparency_error = spng_get_trns(context.get(), &transparency);
+  if (transparency_error != SPNG_ECHUNKAVAIL) check(transparency_error);
+  const Layout layout = choose_layout(header, transparency_error == 0);
+
+  std::size_t size = 0;
+  check(spng_decoded_image_size(context.get(), layout.format, &size));
+  std::vector<std::byte> raw(size);
+  check(spng_decode_image(context.get(), raw.data(), raw.size(), layout.format, layout.flags));
+  check(spng_decode_chunks(context.get())); // to the end: a file that lacks it was cut short
+
+  const bool deep = header.bit_depth == 16;
+  Image image = image::make_image(static_cast<int>(header.width), static_cast<int>(header.height),
+                                  layout.channels, deep ? Depth::unorm16 : Depth::unorm8);
+  if (deep)
+    store<std::uint16_t>(raw, layout, image);
+  else
+    store<std::uint8_t>(raw, layout, image);
+  return image;
+}
+
+std::vector<std::byte> encode_png(const Image& image, Depth depth) {
+  constexpr std::array<std::uint8_t, 4> color_types{
+      SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, SPNG_COLOR_TYPE_TRUECOLOR,
+      SPNG_COLOR_TYPE_TRUECOLOR_ALPHA};
+  const Context context = new_context(SPNG_CTX_ENCODER);
+  const auto check = [](int error) {
+    if (error == SPNG_EMEM) throw std::bad_alloc();
+    if (error != 0) fail_encoding(error);
+  };
+  const bool deep = depth == Depth::unorm16;
+  spng_ihdr header{.width = static_cast<std::uint32_t>(image.width),
+                   .height = static_cast<std::uint32_t>(image.height),
+                   .bit_depth = static_cast<std::uint8_t>(deep ? 16 : 8),
+                   .color_type = color_types[image.channels - 1],
+                   .compression_method = 0,
+                   .filter_method = 0,
+                   .interlace_method = SPNG_INTERLACE_NONE};
+  check(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
+  check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1));
+  check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));
+  // In 16-bit normals and heights hardly a string of bytes comes back: searching for one costs
+  // three times the time and saves no space. Runs are still worth taking.
+  constexpr int zlib_rle = 3;
+  if (deep) check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_STRATEGY, zlib_rle));
+  check(spng_set_ihdr(context.get(), &header));
+  check(spng_encode_image(context.get(), nullptr, 0, SPNG_FMT_PNG,
+                          SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
+  if (deep)
+    encode_rows<std::uint16_t>(context.get(), image);
+  else
+    encode_rows<std::uint8_t>(context.get(), image);
+
+  std::size_t size = 0;
+  int error = 0;
+  const std::unique_ptr<void, decltype(&std::free)> buffer(spng_get_png_buffer(context.get(), &size, &error),
+                                                           &std::free);
+  check(error);
+  const auto* first = static_cast<const std::byte*>(buffer.get());
+  return {first, first + size};
+}
+
+} // namespace surfgrad::io::codec

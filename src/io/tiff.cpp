@@ -1,0 +1,334 @@
+#include "diagnostic/error.hpp"
+#include "io/codecs.hpp"
+
+#include <fmt/format.h>
+#include <half.h>
+#include <tiffio.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <utility>
+
+namespace surfgrad::io::codec {
+namespace {
+
+using image::Depth;
+using image::Image;
+
+/// What the library reads from or writes to, and the first error it reports.
+struct Memory {
+  std::span<const std::byte> input{};
+  std::vector<std::byte> output{};
+  bool writing = false;
+  std::uint64_t position = 0;
+  bool out_of_memory = false;
+  std::array<char, 256> error{};
+
+  [[nodiscard]] std::uint64_t size() const { return writing ? output.size() : input.size(); }
+};
+
+// The functions below are called by the C library, so none may let an exception out.
+
+tmsize_t read_memory(thandle_t handle, void* target, tmsize_t count) {
+  Memory& memory = *static_cast<Memory*>(handle);
+  if (count <= 0 || memory.position >= memory.size()) return 0;
+  const std::uint64_t available =
+      std::min<std::uint64_t>(static_cast<std::uint64_t>(count), memory.size() - memory.position);
+  const std::byte* first = memory.writing ? memory.output.data() : memory.input.data();
+  std::memcpy(target, first + memory.position, available);
+  memory.position += available;
+  return static_cast<tmsize_t>(available);
+}
+
+tmsize_t write_memory(thandle_t handle, void* source, tmsize_t count) {
+  Memory& memory = *static_cast<Memory*>(handle);
+  if (count <= 0 || !memory.writing) return 0;
+  const std::uint64_t end = memory.position + static_cast<std::uint64_t>(count);
+  try {
+    if (end > memory.output.size()) memory.output.resize(end);
+  } catch (const std::exception&) {
+    memory.out_of_memory = true;
+    return 0;
+  }
+  std::memcpy(memory.output.data() + memory.position, source, static_cast<std::size_t>(count));
+  memory.position = end;
+  return count;
+}
+
+toff_t seek_memory(thandle_t handle, toff_t offset, int whence) {
+  Memory& memory = *static_cast<Memory*>(handle);
+  if (whence == SEEK_SET) memory.position = offset;
+  if (whence == SEEK_CUR) memory.position += offset;
+  if (whence == SEEK_END) memory.position = memory.size() + offset;
+  return memory.position;
+}
+
+toff_t size_memory(thandle_t handle) { return static_cast<const Memory*>(handle)->size(); }
+int close_memory(thandle_t) { return 0; }
+
+int keep_error(TIFF*, void* user, const char*, const char* format, va_list arguments) {
+  Memory& memory = *static_cast<Memory*>(user);
+  if (memory.error[0] == '\0') std::vsnprintf(memory.error.data(), memory.error.size(), format, arguments);
+  return 1; // handled: the library must not print it
+}
+
+// Warnings are about tags that do not matter here; lost pixels are errors.
+int drop_warning(TIFF*, void*, const char*, const char*, va_list) { return 1; }
+
+struct CloseTiff {
+  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+};
+using Tiff = std::unique_ptr<TIFF, CloseTiff>;
+
+/// Null where the library finds no TIFF; `memory.error` then says why.
+Tiff open_tiff(Memory& memory) {
+  const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
+                                                                                 &TIFFOpenOptionsFree);
+  if (!options) throw std::bad_alloc();
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, &memory);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), drop_warning, &memory);
+  // Pixels live in buffers of ours; what the library needs for itself is tables and one packed strip.
+  if (!memory.writing)
+    TIFFOpenOptionsSetMaxSingleMemAlloc(
+        options.get(), static_cast<tmsize_t>((std::uint64_t{64} << 20) + 2 * memory.input.size()));
+  return Tiff(TIFFClientOpenExt("", memory.writing ? "w" : "rm", &memory, read_memory, write_memory,
+                                seek_memory, close_memory, size_memory, nullptr, nullptr, options.get()));
+}
+
+template <class T>
+T field(TIFF* tiff, std::uint32_t tag, T fallback) {
+  T value{};
+  return TIFFGetFieldDefaulted(tiff, tag, &value) == 1 ? value : fallback;
+}
+
+/// Upper bounds of how many bytes one packed byte can become.
+std::uint64_t expansion(std::uint16_t compression) {
+  switch (compression) {
+  case COMPRESSION_NONE:
+    return 1;
+  case COMPRESSION_LZW:
+    return 3000; // a full table: 12 bits stand for at most 3837 bytes
+  case COMPRESSION_PACKBITS:
+  case COMPRESSION_DEFLATE:
+  case COMPRESSION_ADOBE_DEFLATE:
+    return deflate_expansion;
+  default:
+    return 40000; // Zstandard, the strongest: 4 bytes stand for at most 128 KiB
+  }
+}
+
+/// How the samples of a file are stored, checked to be something decode_tiff understands.
+struct Layout {
+  Depth depth = Depth::unorm8;
+  std::size_t sample_bytes = 1;
+  int channels = 1;
+  bool separate = false;      ///< one plane a channel
+  bool bottom_up = false;     ///< row 0 of the file is the bottom row
+  bool white_is_zero = false; ///< of the grey channel
+};
+
+Layout read_layout(TIFF* tiff, const Source& source) {
+  Layout layout;
+  const auto bits = field<std::uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE, 1);
+  const auto kind = field<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+  const bool integer = kind == SAMPLEFORMAT_UINT || kind == SAMPLEFORMAT_VOID;
+  if (integer && bits == 8)
+    layout.depth = Depth::unorm8;
+  else if (integer && bits == 16)
+    layout.depth = Depth::unorm16;
+  else if (kind == SAMPLEFORMAT_IEEEFP && bits == 16)
+    layout.depth = Depth::half;
+  else if (kind == SAMPLEFORMAT_IEEEFP && bits == 32)
+    layout.depth = Depth::float32;
+  else
+    source.fail(fmt::format("has {}-bit samples of format {}", bits, kind),
+                "save it with 8 or 16-bit unsigned or 16 or 32-bit float samples");
+  layout.sample_bytes = bits / 8u;
+
+  const auto samples = field<std::uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+  if (samples < 1 || samples > 4)
+    source.fail(fmt::format("has {} samples a pixel", samples), "save it with 1 to 4 channels");
+  layout.channels = samples;
+
+  const auto photometric = field<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  layout.white_is_zero = photometric == PHOTOMETRIC_MINISWHITE;
+  const bool grey = photometric == PHOTOMETRIC_MINISBLACK || (layout.white_is_zero && integer);
+  if (!grey && !(photometric == PHOTOMETRIC_RGB && samples >= 3))
+    source.fail(fmt::format("has the photometric interpretation {} with {} samples", photometric, samples),
+                "save it as grey or RGB");
+
+  const auto orientation = field<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  if (orientation != ORIENTATION_TOPLEFT && orientation != ORIENTATION_BOTLEFT)
+    source.fail(fmt::format("has the orientation {}", orientation),
+                "save it with its first row at the top or bottom and its first column at the left");
+  layout.bottom_up = orientation == ORIENTATION_BOTLEFT;
+  layout.separate =
+      field<std::uint16_t>(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
+
+  const auto compression = field<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  if (!TIFFIsCODECConfigured(compression))
+    source.fail(fmt::format("is compressed by method {}, which this build cannot unpack", compression),
+                "save it uncompressed or with Deflate or LZW");
+  return layout;
+}
+
+float load_sample(const std::byte* at, Depth depth) {
+  std::uint8_t code8;
+  std::uint16_t code16;
+  float value;
+  switch (depth) {
+  case Depth::unorm8:
+    std::memcpy(&code8, at, sizeof code8);
+    return from_code(code8);
+  case Depth::unorm16:
+    std::memcpy(&code16, at, sizeof code16);
+    return from_code(code16);
+  case Depth::half:
+    std::memcpy(&code16, at, sizeof code16);
+    return imath_half_to_float(code16);
+  case Depth::float32:
+    std::memcpy(&value, at, sizeof value);
+    return value;
+  }
+  return 0.0f;
+}
+
+/// A rectangle of texels as the library unpacks it: a strip or a tile, of all channels or of one.
+struct Block {
+  std::span<const std::byte> bytes;
+  int x, y;              ///< where it begins in the file's order of rows
+  int width, height;     ///< the part inside the image
+  std::size_t row_bytes; ///< of the whole block: tiles may reach past the image
+  int first_channel, channels;
+};
+
+void store(const Block& block, const Layout& layout, Image& image) {
+  for (int i = 0; i < block.height; ++i) {
+    const std::byte* next = block.bytes.data() + static_cast<std::size_t>(i) * block.row_bytes;
+    const int y = layout.bottom_up ? block.y + i : flipped(image, block.y + i);
+    for (int x = block.x; x < block.x + block.width; ++x)
+      for (int channel = 0; channel < block.channels; ++channel, next += layout.sample_bytes) {
+        const float value = load_sample(next, layout.depth);
+        const bool invert = layout.white_is_zero && block.first_channel + channel == 0;
+        image.at(x, y, block.first_channel + channel) = invert ? 1.0f - value : value;
+      }
+  }
+}
+
+} // namespace
+
+Image decode_tiff(const Source& source) {
+  Memory memory{.input = source.bytes};
+  const Tiff tiff = open_tiff(memory);
+  const auto fail = [&] { source.fail_damaged(memory.error.data()); };
+  if (!tiff) fail();
+
+  const auto width = field<std::uint32_t>(tiff.get(), TIFFTAG_IMAGEWIDTH, 0);
+  const auto height = field<std::uint32_t>(tiff.get(), TIFFTAG_IMAGELENGTH, 0);
+  source.check_size(width, height);
+  const Layout layout = read_layout(tiff.get(), source);
+  const auto texel_bytes = layout.sample_bytes * static_cast<std::size_t>(layout.channels);
+  const auto max_expansion =
+      expansion(field<std::uint16_t>(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE));
+  source.check_plausible(std::uint64_t{width} * height * texel_bytes, max_expansion);
+
+  // A strip is a tile as wide as the image whose last one is cut off.
+  const bool tiled = TIFFIsTiled(tiff.get()) != 0;
+  std::uint32_t block_width = width;
+  std::uint32_t block_height = 0;
+  if (tiled) {
+    block_width = field<std::uint32_t>(tiff.get(), TIFFTAG_TILEWIDTH, 0);
+    block_height = field<std::uint32_t>(tiff.get(), TIFFTAG_TILELENGTH, 0);
+    source.check_size(block_width, block_height);
+  } else {
+    block_height = std::min(field<std::uint32_t>(tiff.get(), TIFFTAG_ROWSPERSTRIP, height), height);
+    if (block_height == 0) source.fail_damaged("strips of no rows");
+  }
+  const int channels_per_block = layout.separate ? 1 : layout.channels;
+  const std::size_t row_bytes =
+      block_width * layout.sample_bytes * static_cast<std::size_t>(channels_per_block);
+  source.check_plausible(std::uint64_t{row_bytes} * block_height, max_expansion);
+  std::vector<std::byte> bytes(row_bytes * block_height);
+
+  Image image =
+      image::make_image(static_cast<int>(width), static_cast<int>(height), layout.channels, layout.depth);
+  for (int channel = 0; channel < layout.channels; channel += channels_per_block)
+    for (std::uint32_t y = 0; y < height; y += block_height)
+      for (std::uint32_t x = 0; x < width; x += block_width) {
+        const std::uint32_t inside_height = std::min(block_height, height - y);
+        const std::size_t expected = row_bytes * (tiled ? block_height : inside_height);
+        const auto plane = static_cast<std::uint16_t>(channel);
+        const tmsize_t got =
+            tiled ? TIFFReadEncodedTile(tiff.get(), TIFFComputeTile(tiff.get(), x, y, 0, plane), bytes.data(),
+                                        static_cast<tmsize_t>(expected))
+                  : TIFFReadEncodedStrip(tiff.get(), TIFFComputeStrip(tiff.get(), y, plane), bytes.data(),
+                                         static_cast<tmsize_t>(expected));
+        if (got < 0 || static_cast<std::size_t>(got) != expected) fail();
+        store({bytes, static_cast<int>(x), static_cast<int>(y),
+               static_cast<int>(std::min(block_width, width - x)), static_cast<int>(inside_height), row_bytes,
+               channel, channels_per_block},
+              layout, image);
+      }
+  return image;
+}
+
+std::vector<std::byte> encode_tiff(const Image& image, Depth depth) {
+  Memory memory{.writing = true};
+  Tiff tiff = open_tiff(memory);
+  const auto check = [&](bool ok) {
+    if (memory.out_of_memory) throw std::bad_alloc();
+    if (!ok) throw MachineError(fmt::format("cannot encode TIFF: {}", memory.error.data()));
+  };
+  const auto set = [&](std::uint32_t tag, auto value) { check(TIFFSetField(tiff.get(), tag, value) == 1); };
+  check(tiff != nullptr);
+  const bool floats = depth == Depth::float32;
+  const int sample_bytes = floats ? 4 : depth == Depth::unorm16 ? 2 : 1;
+  set(TIFFTAG_IMAGEWIDTH, image.width);
+  set(TIFFTAG_IMAGELENGTH, image.height);
+  set(TIFFTAG_SAMPLESPERPIXEL, image.channels);
+  set(TIFFTAG_BITSPERSAMPLE, sample_bytes * 8);
+  set(TIFFTAG_SAMPLEFORMAT, floats ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
+  set(TIFFTAG_PHOTOMETRIC, image.channels >= 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
+  set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  if (image.channels == 2 || image.channels == 4) {
+    std::uint16_t extra = image.channels == 4 ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED;
+    check(TIFFSetField(tiff.get(), TIFFTAG_EXTRASAMPLES, 1, &extra) == 1);
+  }
+  set(TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
+  set(TIFFTAG_ZIPQUALITY, 1); // the higher levels take three times as long to save a tenth
+  set(TIFFTAG_PREDICTOR, floats ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
+  // Strips of about a quarter megabyte: large enough to pack well, small enough to read piecemeal.
+  const int row_bytes = image.width * image.channels * sample_bytes;
+  set(TIFFTAG_ROWSPERSTRIP, std::clamp(262144 / row_bytes, 1, image.height));
+
+  std::vector<std::byte> bytes(static_cast<std::size_t>(row_bytes));
+  for (int y = 0; y < image.height; ++y) {
+    std::byte* next = bytes.data();
+    const auto put = [&](auto sample) {
+      std::memcpy(next, &sample, sizeof sample);
+      next += sizeof sample;
+    };
+    for (const float value : row(image, flipped(image, y))) {
+      if (floats)
+        put(value);
+      else if (sample_bytes == 2)
+        put(to_code<std::uint16_t>(value));
+      else
+        put(to_code<std::uint8_t>(value));
+    }
+    check(TIFFWriteScanline(tiff.get(), bytes.data(), static_cast<std::uint32_t>(y)) == 1);
+  }
+  check(TIFFWriteDirectory(tiff.get()) == 1);
+  tiff.reset();
+  check(true);
+  return std::move(memory.output);
+}
+
+} // namespace surfgrad::io::codec

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <surfgrad/vec.hpp>
+
+#include <array>
+
+namespace surfgrad::raster {
+
+/// Texture coordinates that one fragment can carry: what the layers of a scene use together.
+inline constexpr int max_uv_slots = 8;
+
+/// One texture coordinate of a fragment with its vertex tangent space.
+template <class T>
+struct UvFragment {
+  vec2<T> st;             ///< lower-left origin, t up
+  vec2<T> dst_dx, dst_dy; ///< change per pixel to the right and upwards
+  vec3<T> tangent;        ///< interpolated, not normalised; zero where no layer asked for it
+  T sign;                 ///< bitangent = sign * cross(normal, tangent)
+};
+
+/// A point of a surface as layers see it: interpolated attributes and analytic derivatives by the
+/// raster position (x to the right, y up), whether that raster is a screen or a texture.
+/// World space; positions are relative to the camera.
+template <class T>
+struct Fragment {
+  vec3<T> position;
+  vec3<T> normal; ///< interpolated, any length; the triangle's own where interpolation gives zero
+  vec3<T> dp_dx, dp_dy;
+  mask_t<T> front_facing;
+  std::array<UvFragment<T>, max_uv_slots> uvs;
+};
+
+} // namespace surfgrad::raster

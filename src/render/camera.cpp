@@ -1,0 +1,86 @@
+#include "render/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace surfgrad::render {
+namespace {
+
+/// Part of the half picture that the object may fill: leaves a margin.
+constexpr double filled = 0.94;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+template <class Visit>
+void for_each_vertex(const scene::Scene& scene, const Visit& visit) {
+  for (const scene::Object& object : scene.objects)
+    for (const vec3<float>& p : scene.meshes[object.mesh].positions) {
+      const vec4<double> w = object.world_from_object * vec4<double>{p.x, p.y, p.z, 1};
+      visit(vec3<double>{w.x, w.y, w.z});
+    }
+}
+
+void look_along(Pinhole& camera, vec3<double> forward) {
+  camera.forward = normalize_or_zero(forward);
+  // Straight up or down has no horizon: then -z is up in the picture, as on a map.
+  const bool vertical = std::abs(camera.forward.y) > 0.999999;
+  const vec3<double> world_up =
+      vertical ? vec3<double>{0, 0, camera.forward.y > 0 ? 1.0 : -1.0} : vec3<double>{0, 1, 0};
+  camera.right = normalize_or_zero(cross(camera.forward, world_up));
+  camera.up = cross(camera.right, camera.forward);
+}
+
+} // namespace
+
+mat4<double> Pinhole::screen_from_relative(int width, int height) const {
+  const auto row = [&](vec3<double> axis, double centre) {
+    const vec3<double> r = focal_px * axis + centre * forward;
+    return vec4<double>{r.x, r.y, r.z, 0};
+  };
+  return {row(right, 0.5 * width), row(up, 0.5 * height), {0, 0, 0, 0}, {forward.x, forward.y, forward.z, 0}};
+}
+
+Pinhole place_camera(const scene::Scene& scene, int width, int height) {
+  const stack::Camera& view = scene.camera;
+  const double tan_half = std::tan(radians(view.fov_deg) / 2);
+  Pinhole camera{};
+  camera.focal_px = 0.5 * height / tan_half * view.zoom;
+
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  vec3<double> low{infinity, infinity, infinity};
+  vec3<double> high{-infinity, -infinity, -infinity};
+  for_each_vertex(scene, [&](vec3<double> p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  });
+  const vec3<double> centre = 0.5 * (low + high);
+  const double size = std::max(length(high - low), std::numeric_limits<double>::min());
+
+  if (view.position && view.target) {
+    camera.eye = *view.position;
+    look_along(camera, *view.target - *view.position);
+    camera.near = 1e-5 * size;
+    return camera;
+  }
+  const double yaw = radians(view.yaw_deg);
+  const double pitch = radians(view.pitch_deg);
+  look_along(camera, {-std::sin(yaw) * std::cos(pitch), -std::sin(pitch), -std::cos(yaw) * std::cos(pitch)});
+  // The smallest distance from which every vertex lies inside the picture's filled part.
+  const double tan_y = filled * tan_half;
+  const double tan_x = tan_y * width / height;
+  double distance = 0;
+  for_each_vertex(scene, [&](vec3<double> p) {
+    const vec3<double> q = p - centre;
+    const double depth = dot(camera.forward, q);
+    distance = std::max({distance, std::abs(dot(camera.right, q)) / tan_x - depth,
+                         std::abs(dot(camera.up, q)) / tan_y - depth});
+  });
+  distance = std::max(distance, 1e-3 * size);
+  camera.eye = centre - distance * camera.forward;
+  camera.near = 1e-5 * distance;
+  return camera;
+}
+
+} // namespace surfgrad::render

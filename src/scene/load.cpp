@@ -1,0 +1,201 @@
+#include "scene/scene.hpp"
+
+#include "diagnostic/error.hpp"
+#include "io/file.hpp"
+#include "io/image_file.hpp"
+#include "io/model_file.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <type_traits>
+
+namespace surfgrad::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+stack::Wrap wrap_of(io::WrapMode mode) {
+  switch (mode) {
+  case io::WrapMode::mirror:
+    return stack::Wrap::mirror;
+  case io::WrapMode::clamp:
+    return stack::Wrap::clamp;
+  case io::WrapMode::repeat:
+    break;
+  }
+  return stack::Wrap::repeat;
+}
+
+/// A model's own normal texture as a layer.
+stack::NormalMapLayer layer_of(const io::ModelMaterial& material) {
+  const io::ModelTexture& texture = *material.normal;
+  stack::NormalMapLayer layer;
+  layer.common.key = "material \"" + material.name + "\"";
+  layer.common.scale = texture.scale;
+  layer.map.file = {texture.name, 0, layer.common.key};
+  layer.map.uv = texture.uv_set;
+  layer.map.tile = texture.tile;
+  layer.map.rotate_deg = texture.rotate_rad * 180.0 / std::numbers::pi;
+  layer.map.offset = texture.offset;
+  layer.map.wrap = wrap_of(texture.wrap_s);
+  layer.map.wrap_t = wrap_of(texture.wrap_t);
+  return layer;
+}
+
+/// Reads each file once and names the place in the document when it cannot be read.
+void load_image(const stack::FileName& name, const fs::path& document, Scene& scene) {
+  if (scene.images.contains(name.path)) return;
+  try {
+    scene.images[name.path] = std::make_shared<image::Image>(io::read_image(name.path));
+  } catch (const InputError& error) {
+    Fault fault = error.fault();
+    if (document.empty()) throw;
+    fault.place = "(named by " + document.filename().string() + ":" + std::to_string(name.line) + ": " +
+                  name.key + ")" + (fault.place.empty() ? "" : " " + fault.place);
+    throw InputError(fault);
+  }
+}
+
+fs::path beside(const fs::path& document, const fs::path& file) {
+  return file.is_absolute() ? file : document.parent_path() / file;
+}
+
+/// Resolves the file names of layers against the document and loads the images.
+void load_maps(std::vector<stack::Layer>& layers, const fs::path& document, Scene& scene) {
+  for (stack::Layer& layer : layers)
+    std::visit(
+        [&](auto& l) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(l)>, stack::ResolveLayer>) {
+            l.map.file.path = beside(document, l.map.file.path);
+            load_image(l.map.file, document, scene);
+            if (l.common.mask) {
+              l.common.mask->file.path = beside(document, l.common.mask->file.path);
+              load_image(l.common.mask->file, document, scene);
+            }
+          }
+        },
+        layer);
+}
+
+void take_model(io::Model model, Scene& scene) {
+  scene.meshes = std::move(model.meshes);
+  for (io::ModelObject& object : model.objects)
+    scene.objects.push_back({std::move(object.name), object.mesh, object.world_from_object});
+  for (const io::ModelMaterial& material : model.materials) {
+    Material m;
+    m.name = material.name;
+    m.back_faces = material.double_sided ? stack::BackFaces::flip : stack::BackFaces::cull;
+    if (material.normal) {
+      m.layers.emplace_back(layer_of(material));
+      scene.images[material.normal->name] = material.normal->image;
+    }
+    scene.materials.push_back(std::move(m));
+  }
+}
+
+std::string names_of(const std::vector<Material>& materials) {
+  std::string names;
+  for (const Material& m : materials) names += (names.empty() ? "" : ", ") + m.name;
+  return names;
+}
+
+void assign_layers(stack::Stack& document, Scene& scene) {
+  if (document.has_layers) {
+    load_maps(document.layers, document.file, scene);
+    for (Material& m : scene.materials) m.layers = document.layers;
+  }
+  for (auto& [name, entry] : document.materials) {
+    load_maps(entry.layers, document.file, scene);
+    bool known = false;
+    for (Material& m : scene.materials) {
+      if (m.name != name) continue;
+      m.layers = entry.layers;
+      known = true;
+    }
+    if (!known)
+      throw InputError({document.file, entry.line, entry.key, "the mesh has no material of this name",
+                        "its materials are: " + names_of(scene.materials)});
+  }
+  if (document.back_faces)
+    for (Material& m : scene.materials) m.back_faces = *document.back_faces;
+}
+
+void check_uv(const stack::Texture& texture, const fs::path& source, const Object& object,
+              const mesh::TriangleMesh& mesh, const std::string& key) {
+  const std::size_t sets = mesh.uv_sets.size();
+  if (static_cast<std::size_t>(texture.uv) < sets) return;
+  const std::string has = sets == 0 ? "has no texture coordinates"
+                                    : "has " + std::to_string(sets) + " UV set" + (sets == 1 ? "" : "s");
+  throw InputError(
+      {source, texture.uv_line, key,
+       "asks for UV set " + std::to_string(texture.uv) + ", but mesh \"" + object.name + "\" " + has,
+       sets == 0 ? "unwrap the mesh, or give this material no layer that reads a texture coordinate"
+                 : "use a set from 0 to " + std::to_string(sets - 1)});
+}
+
+/// Every layer of every material in use finds its UV sets.
+void check_uv_sets(const Scene& scene, const fs::path& source) {
+  for (const Object& object : scene.objects) {
+    const mesh::TriangleMesh& mesh = scene.meshes[object.mesh];
+    const std::set<std::uint32_t> used(mesh.material_of_triangle.begin(), mesh.material_of_triangle.end());
+    for (const std::uint32_t material : used)
+      for (const stack::Layer& layer : scene.materials[material].layers)
+        std::visit(
+            [&](const auto& l) {
+              if constexpr (!std::is_same_v<std::decay_t<decltype(l)>, stack::ResolveLayer>) {
+                check_uv(l.map, source, object, mesh, l.common.key + ".uv");
+                if (l.common.mask) check_uv(*l.common.mask, source, object, mesh, l.common.key + ".mask.uv");
+              }
+            },
+            layer);
+  }
+}
+
+std::string lower_extension(const fs::path& file) {
+  std::string text = file.extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c);
+  });
+  return text;
+}
+
+Scene load_document(const fs::path& file) {
+  const std::vector<std::byte> bytes = io::read_file(file);
+  stack::Stack document =
+      stack::parse_stack({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  Scene scene;
+  if (document.mesh) {
+    take_model(io::read_model(beside(file, document.mesh->path)), scene);
+  } else {
+    Scene demo = demo_scene();
+    scene.meshes = std::move(demo.meshes);
+    scene.objects = std::move(demo.objects);
+    scene.materials = std::move(demo.materials);
+    scene.images = std::move(demo.images);
+  }
+  assign_layers(document, scene);
+  scene.camera = document.camera;
+  scene.lights = document.lights;
+  if (scene.lights.environment) {
+    scene.lights.environment->path = beside(file, scene.lights.environment->path);
+    load_image(*scene.lights.environment, file, scene);
+    scene.environment = scene.images.at(scene.lights.environment->path);
+  }
+  return scene;
+}
+
+} // namespace
+
+Scene load_scene(const fs::path& file) {
+  Scene scene;
+  if (lower_extension(file) == ".json") {
+    scene = load_document(file);
+  } else {
+    take_model(io::read_model(file), scene);
+  }
+  check_uv_sets(scene, file);
+  return scene;
+}
+
+} // namespace surfgrad::scene

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "diagnostic/report.hpp"
+#include "image/image.hpp"
+#include "mesh/triangle_mesh.hpp"
+#include "stack/stack.hpp"
+
+#include <surfgrad/vec.hpp>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace surfgrad::scene {
+
+/// What a surface is bumped with.
+struct Material {
+  std::string name{};
+  stack::BackFaces back_faces = stack::BackFaces::flip;
+  std::vector<stack::Layer> layers{}; ///< file names resolved: keys of Scene::images
+};
+
+/// A mesh placed in the world.
+struct Object {
+  std::string name{};
+  std::size_t mesh = 0;
+  mat4<double> world_from_object{};
+};
+
+/// A stack with all it names, loaded. Every index is in range, every image a layer names is there,
+/// every mesh has the UV sets that its materials' layers read.
+struct Scene {
+  std::vector<mesh::TriangleMesh> meshes{};
+  std::vector<Object> objects{};
+  std::vector<Material> materials{}; ///< what TriangleMesh::material_of_triangle indexes
+  std::map<std::filesystem::path, std::shared_ptr<const image::Image>> images{};
+  stack::Camera camera{};
+  stack::Lights lights{};
+  std::shared_ptr<const image::Image> environment{}; ///< null: the built-in sky
+
+  /// The image of a file that a layer names.
+  [[nodiscard]] const image::Image& image(const std::filesystem::path& file) const {
+    return *images.at(file);
+  }
+};
+
+/// Loads a stack document (.json) with all it names, or a model (.gltf, .glb, .obj) as the stack of
+/// its own normal textures. Files named in a document are relative to its folder.
+///
+/// Throws InputError for whatever is wrong with any of the files, naming it and the place.
+[[nodiscard]] Scene load_scene(const std::filesystem::path& file);
+
+/// The built-in scene: a torus with two UV sets under a stack of four layers in two passes. Needs no
+/// file; the same bytes everywhere.
+[[nodiscard]] Scene demo_scene();
+
+} // namespace surfgrad::scene

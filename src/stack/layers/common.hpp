@@ -1,0 +1,21 @@
+#pragma once
+
+#include "stack/map.hpp"
+
+#include <optional>
+
+namespace surfgrad::stack {
+
+/// What every layer but `resolve` has.
+struct LayerCommon {
+  int line = 0;      ///< where the layer's object begins
+  std::string key{}; ///< e.g. `layers[2]`, `materials.skin[0]`
+  double scale = 1;  ///< of the surface gradient; any sign
+  std::optional<Mask> mask{};
+  double opacity = 1; ///< 0 to 1; multiplies the mask
+  Blend blend = Blend::add;
+
+  static const Fields<LayerCommon>& fields();
+};
+
+} // namespace surfgrad::stack

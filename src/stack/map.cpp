@@ -1,0 +1,55 @@
+#include "stack/map.hpp"
+
+#include "stack/fields.hpp"
+
+namespace surfgrad::stack {
+namespace {
+
+void read_tile(Texture& texture, const Value& value, const Shape& shape) {
+  const auto* one = std::get_if<double>(&value.node.value);
+  const auto* two = std::get_if<std::vector<Node>>(&value.node.value);
+  if (one == nullptr && (two == nullptr || two->size() != 2)) value.reject(expectation(shape));
+  const auto component = [&](const Value& part) {
+    const double number = read_number(part, {.kind = Shape::Kind::number});
+    if (number == 0) part.reject("a number other than zero");
+    return number;
+  };
+  if (one != nullptr) {
+    const double both = component(value);
+    texture.tile = {both, both};
+  } else {
+    texture.tile = {component(value.element(0)), component(value.element(1))};
+  }
+}
+
+} // namespace
+
+const Fields<Texture>& Texture::fields() {
+  static const auto table = Fields<Texture>()
+                                .file("map", &Texture::file)
+                                .required()
+                                .integer("uv", &Texture::uv, {.least = 0, .most = 7})
+                                .add("tile", {.kind = Shape::Kind::tile}, read_tile)
+                                .number("rotate", &Texture::rotate_deg)
+                                .vector("offset", &Texture::offset)
+                                .word("wrap", &Texture::wrap)
+                                .word("filter", &Texture::filter)
+                                .finally([](Texture& texture, const Value& value) {
+                                  const Member* given = value.find("uv");
+                                  texture.uv_line = given != nullptr ? given->node.line : value.node.line;
+                                });
+  return table;
+}
+
+const Fields<Map>& Map::fields() {
+  static const auto table =
+      Fields<Map>().base<Texture>().word("channels", &Map::channels).word("green", &Map::green);
+  return table;
+}
+
+const Fields<Mask>& Mask::fields() {
+  static const auto table = Fields<Mask>().base<Texture>().word("channel", &Mask::channel);
+  return table;
+}
+
+} // namespace surfgrad::stack

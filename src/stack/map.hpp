@@ -1,0 +1,56 @@
+#pragma once
+
+#include "stack/words.hpp"
+
+#include <surfgrad/vec.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace surfgrad::stack {
+
+template <class T>
+class Fields;
+
+/// A file a document names, and where it names it, for the message if it cannot be read.
+struct FileName {
+  std::filesystem::path path{}; ///< as written: relative to the document's folder, or absolute; never empty
+  int line = 0;                 ///< 0 where no document names it
+  std::string key{};            ///< e.g. `layers[2].mask.map`
+};
+
+/// How a 2D map lies on a texture coordinate st (origin lower left, t up):
+///   st' = R(rotate_deg) * (tile * st) + offset, R counter-clockwise.
+struct Texture {
+  FileName file{};
+  int uv = 0;              ///< texture coordinate set, 0 to 7
+  int uv_line = 0;         ///< line of `uv`, or of the object that leaves it out
+  vec2<double> tile{1, 1}; ///< neither component is zero; a negative one mirrors
+  double rotate_deg = 0;
+  vec2<double> offset{0, 0}; ///< in units of the map
+  Wrap wrap = Wrap::repeat;
+  /// Along t where it differs: a model's sampler can say so, a document has one word for both axes.
+  std::optional<Wrap> wrap_t{};
+  Filter filter = Filter::trilinear;
+
+  static const Fields<Texture>& fields();
+};
+
+/// A map of normals.
+struct Map : Texture {
+  Channels channels = Channels::automatic;
+  Green green = Green::up;
+
+  static const Fields<Map>& fields();
+};
+
+/// A map that weighs a layer, 0 to 1 per point.
+struct Mask : Texture {
+  static constexpr std::string_view format_name = "mask";
+  MaskChannel channel = MaskChannel::r;
+
+  static const Fields<Mask>& fields();
+};
+
+} // namespace surfgrad::stack

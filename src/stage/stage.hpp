@@ -1,0 +1,49 @@
+#pragma once
+
+#include "diagnostic/report.hpp"
+#include "engine/reference.hpp"
+#include "raster/visibility.hpp"
+#include "scene/scene.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace surfgrad::stage {
+
+/// A scene made ready for the engine: layers compiled, meshes placed in the world. What render and
+/// bake have in common.
+class Stage {
+ public:
+  /// origin  world position that fragments are relative to (the camera; zero for bakes)
+  /// needed  texture coordinates that the job reads besides those of the layers
+  /// Warns about normal maps with texels that point into the surface. The scene must outlive the
+  /// stage. Throws InputError where the scene needs more UV sets than a fragment carries.
+  Stage(const scene::Scene& scene, vec3<double> origin, const std::vector<raster::UvSlot>& needed,
+        const Report& report);
+
+  /// One a scene object, in the same order.
+  [[nodiscard]] const std::vector<raster::Surface>& surfaces() const { return surfaces_; }
+  /// Where a UV set that the layers or the job asked for lies in Fragment::uvs.
+  [[nodiscard]] std::size_t slot_of(int uv_set) const;
+
+  /// Whether a triangle is left out on the side it shows.
+  [[nodiscard]] bool culled(std::uint32_t surface, std::uint32_t triangle, bool front_facing) const;
+
+  /// The composed normal of a fragment of this triangle.
+  [[nodiscard]] engine::Composition<double> compose(const raster::Visible& what,
+                                                    const raster::Fragment<double>& fragment) const;
+
+ private:
+  [[nodiscard]] std::uint32_t material_of(std::uint32_t surface, std::uint32_t triangle) const;
+
+  const scene::Scene& scene_;
+  std::vector<raster::UvSlot> slots_;
+  std::vector<engine::Program> programs_; // one a material
+  std::vector<raster::Surface> surfaces_;
+  std::vector<mat3<double>> world_from_object_;
+};
+
+/// Upper left 3x3 part of an affine transform.
+[[nodiscard]] mat3<double> linear_part(const mat4<double>& m);
+
+} // namespace surfgrad::stage

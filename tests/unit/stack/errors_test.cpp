@@ -1,0 +1,277 @@
+#include "diagnostic/error.hpp"
+#include "stack/stack.hpp"
+
+#include <gtest/gtest.h>
+
+namespace surfgrad::stack {
+namespace {
+
+struct Case {
+  const char* name;
+  std::string text;
+  int line;
+  const char* place;
+  const char* problem;
+  const char* remedy;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class StackErrors : public testing::TestWithParam<Case> {};
+
+TEST_P(StackErrors, name_the_line_the_key_and_the_remedy) {
+  const Case& c = GetParam();
+  try {
+    static_cast<void>(parse_stack(c.text, "dir/stack.json"));
+    FAIL() << "parsed: " << c.text;
+  } catch (const InputError& error) {
+    const Fault& fault = error.fault();
+    EXPECT_EQ(fault.file, "dir/stack.json");
+    EXPECT_EQ(fault.line, c.line) << error.what();
+    EXPECT_EQ(fault.place, c.place) << error.what();
+    EXPECT_EQ(fault.problem, c.problem) << error.what();
+    EXPECT_EQ(fault.remedy, c.remedy) << error.what();
+    EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos);
+  }
+}
+
+std::string in_layer(const std::string& keys) {
+  return "{ \"surfgrad\": 1,\n  \"layers\": [\n    { \"type\": \"normal_map\",\n      \"map\": \"n.png\",\n" +
+         keys + "\n} ] }";
+}
+std::string in_mask(const std::string& keys) {
+  return in_layer("\"mask\": { \"map\": \"k.png\",\n" + keys + "}");
+}
+std::string in_document(const std::string& keys) { return "{ \"surfgrad\": 1,\n" + keys + "\n}"; }
+
+constexpr const char* layer_keys =
+    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, channels, "
+    "green, basis, scale, mask, opacity, blend";
+
+const Case not_json[] = {
+    {"empty_file", "", 1, "", "is not valid JSON: unexpected end of input",
+     "expected '[', '{', or a literal"},
+    {"end_inside_object", "{ \"surfgrad\": 1,\n \"camera\": {\n", 2, "camera",
+     "is not valid JSON: unexpected end of input", "expected string literal"},
+    {"missing_comma", "{ \"surfgrad\": 1\n  \"mesh\": \"a\" }", 2, "",
+     "is not valid JSON: unexpected string literal", "expected ',' or '}'"},
+    {"missing_comma_in_array", "{ \"surfgrad\": 1,\n\"layers\": [ {\n}\n{} ] }", 4, "layers[1]",
+     "is not valid JSON: unexpected '{'", "expected ',' or ']'"},
+    {"trailing_comma", "{ \"surfgrad\": 1,\n}", 2, "", "is not valid JSON: unexpected '}'",
+     "expected string literal"},
+    {"missing_colon", "{ \"surfgrad\"\n 1 }", 2, "surfgrad", "is not valid JSON: unexpected number literal",
+     "expected ':'"},
+    {"text_after_the_end", "{ \"surfgrad\": 1 }\n{}", 2, "", "is not valid JSON: unexpected '{'",
+     "expected end of input"},
+    {"line_comment", "{ \"surfgrad\": 1, // one\n \"mesh\": \"a\" }", 1, "",
+     "is not valid JSON: invalid literal: \"/\"", "JSON has no comments: remove it"},
+    {"block_comment", "{ \"surfgrad\": 1,\n\"camera\": { \"yaw\": /* 3 */ 4 } }", 2, "camera.yaw",
+     "is not valid JSON: invalid literal: \"/\"", "JSON has no comments: remove it"},
+    {"nan", in_layer("\"scale\": NaN"), 5, "layers[0].scale", "is not valid JSON: invalid literal: \"NaN\"",
+     "expected a value: a string in double quotes, a number, true, false, {...} or [...]"},
+    {"broken_literal", "{ \"surfgrad\": 1, \"mesh\": tru\n}", 1, "mesh",
+     "is not valid JSON: invalid literal: \"tru\"",
+     "expected a value: a string in double quotes, a number, true, false, {...} or [...]"},
+    {"bare_key", "{ surfgrad: 1 }", 1, "", "is not valid JSON: invalid literal: \"surfgrad\"",
+     "expected string literal"},
+    {"single_quotes", "{ 'surfgrad': 1 }", 1, "", "is not valid JSON: invalid literal: \"'\"",
+     "expected string literal"},
+    {"bad_number", in_layer("\"scale\": 1."), 5, "layers[0].scale",
+     "is not valid JSON: invalid number: \"1.<U+000A>\"", "expected digit after '.'"},
+    {"string_over_a_line_end", "{ \"surfgrad\": 1,\n\"mesh\": \"a\nb\" }", 2, "mesh",
+     "is not valid JSON: invalid string: control character U+000A (LF) must be escaped to \\u000A or \\n: "
+     "\"\"a<U+000A>\"",
+     ""},
+    {"invalid_utf8_in_a_string", "{ \"surfgrad\": 1,\n\"mesh\": \"a\xff\" }", 2, "mesh",
+     "is not valid JSON: invalid string: ill-formed UTF-8 byte: \"\"a?\"", "expected UTF-8"},
+    {"overlong_utf8", in_document("\"mesh\": \"\xc0\xaf\""), 2, "mesh",
+     "is not valid JSON: invalid string: ill-formed UTF-8 byte: \"\"?\"", "expected UTF-8"},
+    {"utf16", std::string("\xff\xfe{\0\n\0", 6), 1, "", "is not text: it holds a zero byte",
+     "expected a JSON document in UTF-8"},
+    {"text_after_a_zero_byte", std::string("{ \"surfgrad\": 1 }\n\0 garbage", 27), 2, "",
+     "is not text: it holds a zero byte", "expected a JSON document in UTF-8"},
+    {"half_a_byte_order_mark", "\xEF{}", 1, "",
+     "is not valid JSON: invalid BOM; must be 0xEF 0xBB 0xBF if given: \"?{\"", "expected UTF-8"},
+    {"number_beyond_double", in_layer("\"scale\": 1e999"), 5, "layers[0].scale", "is too large: \"1e999\"",
+     "expected a number of magnitude 1e12 or less"},
+    {"repeated_key", in_layer("\"scale\": 1,\n\"uv\": 0,\n\"scale\": 2"), 7, "layers[0]",
+     "repeats the key \"scale\"", "keep one; the first is on line 5"},
+    {"repeated_key_by_escape", "{ \"surfgrad\": 1,\n\"mesh\": \"a\",\n\"m\\u0065sh\": \"b\" }", 3, "",
+     "repeats the key \"mesh\"", "keep one; the first is on line 2"},
+    {"crlf_lines", "{ \"surfgrad\": 1,\r\n\r\n \"camera\":\r\n5 }", 4, "camera", "is 5",
+     "expected an object"},
+};
+
+const Case wrong_document[] = {
+    {"top_level_array", "\n[]", 2, "", "is an array of 0", "expected an object"},
+    {"top_level_number", "1", 1, "", "is 1", "expected an object"},
+    {"no_version", "{\n\"mesh\": \"a\" }", 1, "", "lacks \"surfgrad\", the version of the format",
+     "expected \"surfgrad\": 1"},
+    {"newer_version", "{ \"newkey\": {},\n\"surfgrad\": 2 }", 2, "surfgrad",
+     "is 2: the document was written by a newer surfgrad", "this one reads version 1"},
+    {"version_zero", "{ \"surfgrad\": 0 }", 1, "surfgrad", "is 0", "expected the version of the format, 1"},
+    {"version_string", "{ \"surfgrad\": \"1\" }", 1, "surfgrad", "is a string", "expected a number"},
+    {"unknown_top_key", in_document("\"layer\": []"), 2, "", "unknown key \"layer\"",
+     "did you mean \"layers\"? expected one of: surfgrad, $schema, mesh, back_faces, layers, materials, "
+     "camera, "
+     "lights"},
+    {"layers_not_an_array", in_document("\"layers\": {}"), 2, "layers", "is an object", "expected an array"},
+    {"layer_not_an_object", in_document("\"layers\": [\n\"normal_map\" ]"), 3, "layers[0]", "is a string",
+     "expected an object"},
+    {"no_layer_type", in_document("\"layers\": [ {\"map\": \"a\"} ]"), 2, "layers[0]", "lacks \"type\"",
+     "expected \"type\": one of: normal_map, object_normal_map, resolve"},
+    {"unknown_layer_type", in_document("\"layers\": [ {\n\"type\": \"normalmap\"} ]"), 3, "layers[0].type",
+     "is \"normalmap\"",
+     "did you mean \"normal_map\"? expected one of: normal_map, object_normal_map, resolve"},
+    {"layer_type_number", in_document("\"layers\": [ {\"type\": 3} ]"), 2, "layers[0].type", "is 3",
+     "expected one of: normal_map, object_normal_map, resolve"},
+    {"materials_not_an_object", in_document("\"materials\": []"), 2, "materials", "is an array of 0",
+     "expected an object"},
+    {"material_not_an_array", in_document("\"materials\": {\n\"skin\": {} }"), 3, "materials.skin",
+     "is an object", "expected an array"},
+    {"layer_of_a_quoted_material",
+     in_document("\"materials\": { \"a.b\": [ {\"type\": \"resolve\"}, null ] }"), 2, "materials[\"a.b\"][1]",
+     "is null", "expected an object"},
+    {"mesh_number", in_document("\"mesh\": 5"), 2, "mesh", "is 5", "expected a file name"},
+    {"empty_mesh", in_document("\"mesh\": \"\""), 2, "mesh", "is empty", "expected a file name"},
+    {"zero_in_a_file_name", in_document("\"mesh\": \"a\\u0000b\""), 2, "mesh", "holds a zero character",
+     "expected a file name"},
+    {"back_faces_word", in_document("\"back_faces\": \"culled\""), 2, "back_faces", "is \"culled\"",
+     "did you mean \"cull\"? expected one of: same, mirror, flip, cull"},
+    {"schema_not_a_string", in_document("\"$schema\": false"), 2, "$schema", "is false", "expected a string"},
+};
+
+const Case wrong_layer[] = {
+    {"no_map", in_document("\"layers\": [\n{\"type\": \"normal_map\"} ]"), 3, "layers[0]", "lacks \"map\"",
+     "expected \"map\": a file name"},
+    {"no_mask_map", in_layer("\"mask\":\n{}"), 6, "layers[0].mask", "lacks \"map\"",
+     "expected \"map\": a file name"},
+    {"scale_string", in_layer("\"scale\": \"1\""), 5, "layers[0].scale", "is a string", "expected a number"},
+    {"scale_null", in_layer("\"scale\": null"), 5, "layers[0].scale", "is null", "expected a number"},
+    {"scale_too_large", in_layer("\"scale\": -1e13"), 5, "layers[0].scale", "is -10000000000000",
+     "expected a number of magnitude 1000000000000 or less"},
+    {"value_on_its_own_line", in_layer("\"scale\":\n\n\"x\"\n"), 7, "layers[0].scale", "is a string",
+     "expected a number"},
+    {"number_before_a_line_end", in_layer("\"opacity\": 2\n"), 5, "layers[0].opacity", "is 2",
+     "expected a number from 0 to 1"},
+    {"negative_opacity", in_layer("\"opacity\": -0.1"), 5, "layers[0].opacity", "is -0.1",
+     "expected a number from 0 to 1"},
+    {"uv_too_high", in_layer("\"uv\": 8"), 5, "layers[0].uv", "is 8", "expected a whole number from 0 to 7"},
+    {"uv_negative", in_layer("\"uv\": -1"), 5, "layers[0].uv", "is -1",
+     "expected a whole number from 0 to 7"},
+    {"uv_fraction", in_layer("\"uv\": 0.5"), 5, "layers[0].uv", "is 0.5",
+     "expected a whole number from 0 to 7"},
+    {"uv_bool", in_layer("\"uv\": true"), 5, "layers[0].uv", "is true",
+     "expected a whole number from 0 to 7"},
+    {"tile_zero", in_layer("\"tile\": 0"), 5, "layers[0].tile", "is 0", "expected a number other than zero"},
+    {"tile_part_zero", in_layer("\"tile\": [1,\n-0.0]"), 6, "layers[0].tile[1]", "is -0",
+     "expected a number other than zero"},
+    {"tile_of_three", in_layer("\"tile\": [1, 2, 3]"), 5, "layers[0].tile", "is an array of 3",
+     "expected a number or an array of 2 numbers, none of them zero"},
+    {"tile_word", in_layer("\"tile\": [1, \"2\"]"), 5, "layers[0].tile[1]", "is a string",
+     "expected a number"},
+    {"rotate_array", in_layer("\"rotate\": [30]"), 5, "layers[0].rotate", "is an array of 1",
+     "expected a number"},
+    {"offset_number", in_layer("\"offset\": 1"), 5, "layers[0].offset", "is 1",
+     "expected an array of 2 numbers"},
+    {"offset_of_one", in_layer("\"offset\": [1]"), 5, "layers[0].offset", "is an array of 1",
+     "expected an array of 2 numbers"},
+    {"wrap_word", in_layer("\"wrap\": \"tile\""), 5, "layers[0].wrap", "is \"tile\"",
+     "expected one of: repeat, mirror, clamp"},
+    {"filter_word", in_layer("\"filter\": \"linear\""), 5, "layers[0].filter", "is \"linear\"",
+     "did you mean \"bilinear\"? expected one of: nearest, bilinear, trilinear"},
+    {"channels_word", in_layer("\"channels\": \"rgb\""), 5, "layers[0].channels", "is \"rgb\"",
+     "expected one of: xyz, xy"},
+    {"green_case", in_layer("\"green\": \"Up\""), 5, "layers[0].green", "is \"Up\"",
+     "did you mean \"up\"? expected one of: up, down"},
+    {"basis_word", in_layer("\"basis\": \"mikktspce\""), 5, "layers[0].basis", "is \"mikktspce\"",
+     "did you mean \"mikktspace\"? expected one of: mikktspace, derived"},
+    {"blend_word", in_layer("\"blend\": \"replace\""), 5, "layers[0].blend", "is \"replace\"",
+     "expected one of: add, mix"},
+    {"mask_string", in_layer("\"mask\": \"mask.png\""), 5, "layers[0].mask", "is a string",
+     "expected an object"},
+    {"mask_channel", in_mask("\"channel\": \"x\""), 6, "layers[0].mask.channel", "is \"x\"",
+     "expected one of: r, g, b, a"},
+    {"mask_green", in_mask("\"green\": \"up\""), 6, "layers[0].mask", "unknown key \"green\"",
+     "expected one of: map, uv, tile, rotate, offset, wrap, filter, channel"},
+    {"mask_key_slip", in_mask("\"chanel\": \"r\""), 6, "layers[0].mask", "unknown key \"chanel\"",
+     "did you mean \"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, channel"},
+    {"space_of_a_tangent_map", in_layer("\"space\": \"object\""), 5, "layers[0]", "unknown key \"space\"",
+     layer_keys},
+    {"unknown_key_without_a_near_one", in_layer("\"strength\": 1"), 5, "layers[0]",
+     "unknown key \"strength\"", layer_keys},
+    {"unknown_key_line_is_the_keys", in_layer("\"zz\"\n:\n1"), 5, "layers[0]", "unknown key \"zz\"",
+     layer_keys},
+    {"long_key_is_cut", in_layer("\"" + std::string(59, 'x') + "\xc3\xa9" + std::string(500, 'y') + "\": 1"),
+     5, "layers[0]", "unknown key \"xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...\"",
+     layer_keys},
+    {"basis_of_an_object_map",
+     in_document(
+         "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"basis\": \"derived\"} ]"),
+     3, "layers[0]", "unknown key \"basis\"",
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, channels, green, space, scale, "
+     "mask, "
+     "opacity, blend"},
+    {"space_word",
+     in_document(
+         "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"space\": \"tangent\"} ]"),
+     3, "layers[0].space", "is \"tangent\"", "expected one of: object, world"},
+    {"resolve_with_a_scale", in_document("\"layers\": [ {\"type\": \"resolve\",\n\"scale\": 1} ]"), 3,
+     "layers[0]", "unknown key \"scale\"", "expected one of: type"},
+};
+
+const Case wrong_view[] = {
+    {"camera_array", in_document("\"camera\": []"), 2, "camera", "is an array of 0", "expected an object"},
+    {"fov_zero", in_document("\"camera\": {\"fov\": 0}"), 2, "camera.fov", "is 0",
+     "expected a number greater than 0 and less than 180"},
+    {"fov_half_turn", in_document("\"camera\": {\"fov\": 180}"), 2, "camera.fov", "is 180",
+     "expected a number greater than 0 and less than 180"},
+    {"zoom_zero", in_document("\"camera\": {\"zoom\": 0}"), 2, "camera.zoom", "is 0",
+     "expected a number greater than 0"},
+    {"pitch_over_the_pole", in_document("\"camera\": {\"pitch\": 90.5}"), 2, "camera.pitch", "is 90.5",
+     "expected a number from -90 to 90"},
+    {"position_alone", in_document("\"camera\":\n{\"position\": [0, 0, 1]}"), 3, "camera",
+     "has a \"position\" but no \"target\"",
+     "give \"position\" and \"target\", or \"yaw\", \"pitch\" and \"zoom\""},
+    {"target_alone", in_document("\"camera\": {\"target\": [0, 0, 1]}"), 2, "camera",
+     "has a \"target\" but no \"position\"",
+     "give \"position\" and \"target\", or \"yaw\", \"pitch\" and \"zoom\""},
+    {"position_and_yaw", in_document("\"camera\": {\"position\": [0,0,1], \"target\": [0,0,0], \"yaw\": 1}"),
+     2, "camera", "has a \"position\" and \"yaw\"",
+     "give \"position\" and \"target\", or \"yaw\", \"pitch\" and \"zoom\""},
+    {"position_is_target", in_document("\"camera\": {\"position\": [1,2,3], \"target\": [1,2,3]}"), 2,
+     "camera", "\"position\" and \"target\" are the same point", "expected two points"},
+    {"position_of_two", in_document("\"camera\": {\"position\": [1,2]}"), 2, "camera.position",
+     "is an array of 2", "expected an array of 3 numbers"},
+    {"lights_key", in_document("\"lights\": {\"moon\": 1}"), 2, "lights", "unknown key \"moon\"",
+     "expected one of: sun, sky, environment"},
+    {"sky_negative", in_document("\"lights\": {\"sky\": -1}"), 2, "lights.sky", "is -1",
+     "expected a number at least 0"},
+    {"sun_strength", in_document("\"lights\": {\"sun\": {\n\"strength\": -1}}"), 3, "lights.sun.strength",
+     "is -1", "expected a number at least 0"},
+    {"sun_direction_zero", in_document("\"lights\": {\"sun\": {\n\"direction\": [0, 0, 0]}}"), 3,
+     "lights.sun.direction", "is the zero vector", "expected the direction of the sun"},
+    {"empty_environment", in_document("\"lights\": {\"environment\": \"\"}"), 2, "lights.environment",
+     "is empty", "expected a file name"},
+};
+
+std::string name_of(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(not_json, StackErrors, testing::ValuesIn(not_json), name_of);
+INSTANTIATE_TEST_SUITE_P(document, StackErrors, testing::ValuesIn(wrong_document), name_of);
+INSTANTIATE_TEST_SUITE_P(layer, StackErrors, testing::ValuesIn(wrong_layer), name_of);
+INSTANTIATE_TEST_SUITE_P(view, StackErrors, testing::ValuesIn(wrong_view), name_of);
+
+TEST(StackErrorMessage, is_one_line_that_names_file_line_key_and_remedy) {
+  try {
+    static_cast<void>(parse_stack(in_mask("\"chan\\nel\": \"r\""), "dir/stack.json"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "dir/stack.json:6: layers[0].mask: unknown key \"chan?el\"; did you mean "
+                               "\"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, "
+                               "channel");
+  }
+}
+
+} // namespace
+} // namespace surfgrad::stack
