@@ -67,18 +67,25 @@ Pinhole place_camera(const scene::Scene& scene, int width, int height) {
   const double yaw = radians(view.yaw_deg);
   const double pitch = radians(view.pitch_deg);
   look_along(camera, {-std::sin(yaw) * std::cos(pitch), -std::sin(pitch), -std::cos(yaw) * std::cos(pitch)});
-  // The smallest distance from which every vertex lies inside the picture's filled part.
+  // Along one axis with tangent t, a camera shifted by c sees q at distance d where
+  // |axis q - c| <= t (d + forward q). The largest axis q - t forward q and -axis q - t forward q
+  // over all vertices give the c that centres the object and the least d that frames it.
   const double tan_y = filled * tan_half;
   const double tan_x = tan_y * width / height;
-  double distance = 0;
+  vec2<double> right_most{-infinity, -infinity}; // x: to the right, y: to the left
+  vec2<double> up_most{-infinity, -infinity};    // x: upwards, y: downwards
   for_each_vertex(scene, [&](vec3<double> p) {
     const vec3<double> q = p - centre;
     const double depth = dot(camera.forward, q);
-    distance = std::max({distance, std::abs(dot(camera.right, q)) / tan_x - depth,
-                         std::abs(dot(camera.up, q)) / tan_y - depth});
+    const double x = dot(camera.right, q);
+    const double y = dot(camera.up, q);
+    right_most = {std::max(right_most.x, x - tan_x * depth), std::max(right_most.y, -x - tan_x * depth)};
+    up_most = {std::max(up_most.x, y - tan_y * depth), std::max(up_most.y, -y - tan_y * depth)};
   });
-  distance = std::max(distance, 1e-3 * size);
-  camera.eye = centre - distance * camera.forward;
+  const double distance = std::max(
+      {(right_most.x + right_most.y) / (2 * tan_x), (up_most.x + up_most.y) / (2 * tan_y), 1e-3 * size});
+  camera.eye = centre - distance * camera.forward + (0.5 * (right_most.x - right_most.y)) * camera.right +
+               (0.5 * (up_most.x - up_most.y)) * camera.up;
   camera.near = 1e-5 * distance;
   return camera;
 }

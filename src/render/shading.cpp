@@ -11,7 +11,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double roughness = 0.36; // glossy enough that highlights trace the bumps
 constexpr double alpha = roughness * roughness;
 constexpr double f0 = 0.05; // a dielectric
-constexpr vec3<double> body{0.52, 0.47, 0.42};
+constexpr vec3<double> body{0.37, 0.32, 0.28};
 
 /// Light through a coloured body, channel by channel.
 vec3<double> tinted(vec3<double> color, vec3<double> light) {

@@ -82,7 +82,7 @@ image::Image stripes_mask(int size) {
     for (int x = 0; x < size; ++x) {
       const double s = (x + 0.5) / size;
       const double from_middle = std::abs(fraction(2 * s) - 0.5);
-      mask.at(x, y, 0) = static_cast<float>(std::floor(smooth(0.14, 0.18, from_middle) * 255 + 0.5) / 255);
+      mask.at(x, y, 0) = static_cast<float>(std::floor(smooth(0.36, 0.40, from_middle) * 255 + 0.5) / 255);
     }
   return mask;
 }
