@@ -88,7 +88,7 @@ void apply_transform(const Element& transform, ModelTexture& texture) {
   const double angle = transform.number_or("rotation", 0.0);
   for (const double value : {offset[0], offset[1], scale[0], scale[1]}) require_float(transform, value);
   texture.tile = {scale[0], scale[1]};
-  texture.rotate_rad = -angle;
+  texture.rotate_rad = angle;
   texture.offset = {offset[0] + std::sin(angle) * scale[1], 1.0 - offset[1] - std::cos(angle) * scale[1]};
   if (const auto set = transform.find("texCoord")) texture.uv_set = read_uv_set(*set);
 }

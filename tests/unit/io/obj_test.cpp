@@ -98,6 +98,7 @@ TEST(Obj, CornersWithoutTextureCoordinatesLieAtTheOrigin) {
   EXPECT_EQ(mesh.positions.size(), 6u);
   EXPECT_EQ(mesh.uv_sets[0][1].x, 0.0f);
   EXPECT_EQ(mesh.uv_sets[0][3].x, 1.0f);
+  EXPECT_EQ(read(std::string(square) + "f 2/2/1 3/3/1 4/4/1\nf 1//1 2//1 3//1").meshes[0].uv_sets.size(), 1u);
 }
 
 TEST(Obj, LineEndsCommentsContinuationsAndLaterVertices) {
