@@ -16,7 +16,8 @@ inline constexpr int max_slope = 128;
 ///
 /// m           normal in [-1, 1]^3, of any length: only its direction counts
 /// returns     -m.xy / max(|m.z|, max(|m.x|, |m.y|) / 128), each component within [-128, 128]
-/// degenerate  (0, 0, 0) and (0, 0, z) give zero; m.z <= 0 is treated as |m.z|
+/// degenerate  (0, 0, 0) and (0, 0, z) give zero; m.z <= 0 is treated as |m.z|; NaN propagates. A vector
+///             of subnormal components may count as zero.
 /// error       1 ulp per component (a division)
 /// source      Mikkelsen 2019, equation 4, with the clamp of listing 4
 template <Scalar T>
@@ -33,7 +34,7 @@ template <Scalar T>
 ///
 /// m           channels x, y in [-1, 1] of a unit normal
 /// returns     -m / sqrt(max(1 - |m|^2, (max(|m.x|, |m.y|) / 128)^2)), within [-128, 128]
-/// degenerate  zero gives zero; |m| >= 1 gives the steepest slope in the direction of m
+/// degenerate  zero gives zero; |m| >= 1 gives the steepest slope in the direction of m; NaN propagates
 /// error       2 eps + eps / (1 - |m|^2), relative: the reconstruction cancels as |m| nears 1
 /// source      Mikkelsen 2019, listing 4, equation 5
 template <Scalar T>
@@ -59,6 +60,7 @@ template <Scalar T>
 ///
 /// h, h_x, h_y  heights at st, st + dst_dx, st + dst_dy
 /// returns      (dh/dx, dh/dy) per pixel, for from_height_derivative
+/// error        half an ulp of the difference
 /// source       Mikkelsen 2019, listing 9
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec2<T> derivative_from_heights(T h, T h_x, T h_y) {
@@ -104,6 +106,7 @@ template <Scalar T>
 }
 
 /// Bump scale applied to a derivative.
+/// error   half an ulp per component
 /// source  Mikkelsen 2019, listing 3
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec2<T> scale_bump(T scale, vec2<T> deriv) {

@@ -50,7 +50,12 @@ template <Scalar T>
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> unit_normal_or_plane(vec3<T> normal, vec3<T> dp_dx,
                                                                 vec3<T> dp_dy) {
-  const mask_t<T> absent = max_abs(normal) < T(std::numeric_limits<value_t<T>>::min());
+  const T tiny = T(std::numeric_limits<value_t<T>>::min());
+  // One component at a time, so that NaN anywhere is not taken for absence.
+  const mask_t<T> no_x = abs(normal.x) < tiny;
+  const mask_t<T> no_y = abs(normal.y) < tiny;
+  const mask_t<T> no_z = abs(normal.z) < tiny;
+  const mask_t<T> absent = no_x & no_y & no_z;
   // Normalise the factors first: their product would underflow for a microscopic footprint.
   const vec3<T> plane = cross(normalize_or_zero(dp_dx), normalize_or_zero(dp_dy));
   return normalize_or_zero(select<T>(absent, plane, normal));
@@ -66,9 +71,9 @@ template <Scalar T>
 /// returns       frame with unit normal, resolve_sign +1
 /// degenerate    zero normal: normalize(cross(dp_dx, dp_dy)), which faces the viewer in a
 ///               right-handed space where screen y runs up (negate dp_dy, then the normal, where it
-///               runs down); zero if that vanishes too, which makes every surface gradient and the
-///               resolved normal zero. Zero dp: sigma is zero. NaN propagates.
-/// error         normal 3 eps per component; sigma 4 eps * |dp|
+///               runs down); zero if that vanishes too, which makes the resolved normal zero. Zero dp:
+///               sigma is zero. NaN propagates.
+/// error         normal 3 eps per component; sigma 10 eps * |dp|: 4 of its own, twice the normal's 3
 /// source        Mikkelsen 2019, listing 16
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Frame<T> make_frame(vec3<T> normal, vec3<T> dp_dx, vec3<T> dp_dy) {
@@ -107,6 +112,7 @@ template <Scalar T>
 ///
 /// normal   the resolved normal: unit. It already carries the side, so it is never negated again.
 /// returns  frame with sigma and flip_sign recomputed for the new normal; resolve_sign is kept
+/// error    sigma 4 eps * |dp|
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr Frame<T> rebase_frame(const Frame<T>& frame, vec3<T> normal) {
   return detail::frame_from_unit_normal(normal, frame.dp_dx, frame.dp_dy, frame.resolve_sign);
@@ -127,7 +133,7 @@ template <Scalar T>
 /// returns     tangent and bitangent, both divided by length(normal): the resolve then equals
 ///             normalize(x * tangent + y * bitangent + z * normal) of the raw vectors
 /// degenerate  zero normal: zero vectors, hence no bump
-/// error       4 eps per unit of |tangent| / |normal|
+/// error       tangent 4 eps * |tangent| / |normal|, bitangent 8 eps * |tangent|
 /// source      Mikkelsen 2019, listing 16 and section 2.2
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE TangentFrame<T> mikktspace_basis(vec3<T> normal, vec3<T> tangent, T sign) {
@@ -146,9 +152,10 @@ template <Scalar T>
 /// dst_dx, dst_dy  screen-space derivatives of the texture coordinate
 /// returns         orthonormal tangent (direction of +s in the tangent plane) and bitangent (on the
 ///                 side of +t), right for clockwise and counter-clockwise coordinates
-/// degenerate      collapsed coordinates (both derivatives parallel to rounding, or zero) and zero
+/// degenerate      collapsed coordinates (both derivatives parallel to rounding, zero or NaN) and zero
 ///                 sigma: zero vectors, hence no bump
-/// error           8 eps * |dst_dx| |dst_dy| / |det(dst_dx, dst_dy)| per component
+/// error           8 eps * (|sigma_x| |dt/dy| + |sigma_y| |dt/dx|) / |sigma_x dt/dy - sigma_y dt/dx| per
+///                 component: the tangent is the direction of that difference
 /// source          Mikkelsen 2019, listing 6 and section 2.3
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE TangentFrame<T> tangent_basis(const Frame<T>& frame, vec2<T> dst_dx,
@@ -159,7 +166,7 @@ template <Scalar T>
   const vec2<T> a = reciprocal_or_zero(max_abs(dst_dx)) * dst_dx;
   const vec2<T> b = reciprocal_or_zero(max_abs(dst_dy)) * dst_dy;
   const T det = cross(a, b);
-  const mask_t<T> collapsed = abs(det) < T(epsilon_v<T>);
+  const mask_t<T> collapsed = !(T(epsilon_v<T>) < abs(det)); // so that NaN collapses too
   const T sign = select(det < zero, -one, one);
   // (dx/ds, dy/ds) up to the positive factor 1 / |det|, which normalisation removes. Both rates
   // share one scale, or the direction would change.

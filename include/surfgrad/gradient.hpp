@@ -33,7 +33,8 @@ template <Scalar T>
 /// returns     g with normalize(normal - g) = normalize(v) where dot(normal, v) > 0. Where it is
 ///             negative the result perturbs towards v, mirrored at the tangent plane (listing 7, not
 ///             the opposite sign of Golubev's equation 38).
-/// degenerate  v = 0 gives zero. |dot(normal, v)| is clamped to eps * |v|, so |g| <= 1 / eps.
+/// degenerate  v = 0 gives zero. |dot(normal, v)| is clamped to eps * |v|, so |g| <= 1 / eps. NaN
+///             propagates.
 /// error       4 eps * |v| / |dot(normal, v)| relative to max(1, |g|)
 /// source      Mikkelsen 2019, listing 7; Golubev, equation 38
 template <Scalar T>
@@ -53,8 +54,10 @@ template <Scalar T>
 /// returns       (cross(dp_dv, n) * dh_du + cross(n, dp_du) * dh_dv) / det
 /// degenerate    det = dot(dp_du, cross(dp_dv, n)), the area, is clamped to eps times the product of
 ///               the derivatives' magnitudes: bounded when they are parallel, zero when one is zero.
-///               No result depends on the scale of the scene.
-/// error         8 eps * |dp_du| |dp_dv| / |det|, relative to the largest term
+///               A result beyond the scalar's range saturates; NaN propagates. No result depends on the scale
+///               of the scene.
+/// error         8 eps * kappa * the largest term's length, kappa = |dp_du| |dp_dv| / |det|: rounding in
+///               the cross products and in det is relative to the product of the lengths
 /// source        Mikkelsen 2010, equation 3 (listing 8); Golubev, equations 6 and 31
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T>
@@ -70,7 +73,7 @@ from_parametric_derivative(vec3<T> normal, vec3<T> dp_du, vec3<T> dp_dv, vec2<T>
   const vec3<T> r2 = cross(normal, a);
   const T det = dot(a, r1);
   const T s = select(det < zero, -one, one) / max(T(epsilon_v<T>), abs(det));
-  return (s * (dh_duv.x * inverse_u)) * r1 + (s * (dh_duv.y * inverse_v)) * r2;
+  return saturated(s * (dh_duv.x * inverse_u)) * r1 + saturated(s * (dh_duv.y * inverse_v)) * r2;
 }
 
 /// Surface gradient from the screen-space derivative of the height: scale-dependent bump mapping.
@@ -90,7 +93,7 @@ template <Scalar T>
 /// dh_dtexel       height change from one texel to the next along s and t, in units of the position
 /// size            width and height of the map in texels
 /// dst_dx, dst_dy  screen-space derivatives of the normalised texture coordinate
-/// returns, degenerate, error  as from_parametric_derivative
+/// returns, degenerate, error  as from_parametric_derivative, with dh_dxy's own terms by magnitude
 /// source          Mikkelsen 2019, listing 8
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> from_texel_derivative(const Frame<T>& frame,
@@ -102,17 +105,19 @@ template <Scalar T>
 
 /// Surface gradient of a function of space: its gradient projected onto the tangent plane.
 ///
-/// normal    base normal, unit
-/// gradient  volume gradient (dh/dx, dh/dy, dh/dz) in the same space
-/// returns   gradient - dot(normal, gradient) * normal
-/// error     4 eps * |gradient|
-/// source    Mikkelsen 2019, listing 12; Golubev, equation 30
+/// normal      base normal, unit
+/// gradient    volume gradient (dh/dx, dh/dy, dh/dz) in the same space
+/// returns     gradient - dot(normal, gradient) * normal
+/// degenerate  a zero normal leaves the gradient as it is; NaN propagates
+/// error       4 eps * |gradient|
+/// source      Mikkelsen 2019, listing 12; Golubev, equation 30
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> from_volume_gradient(vec3<T> normal, vec3<T> gradient) {
   return gradient - dot(normal, gradient) * normal;
 }
 
 /// Bump scale applied to a surface gradient.
+/// error   half an ulp per component
 /// source  Mikkelsen 2019, listing 2
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> scale_bump(T scale, vec3<T> surfgrad) {

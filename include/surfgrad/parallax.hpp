@@ -16,8 +16,11 @@ namespace surfgrad {
 /// skip_projection  uniform: true leaves out the division by dot(normal, dir) (offset limiting)
 /// returns          change of st while the height changes by 1 (by dot(normal, dir) when skipped)
 /// degenerate       |dot(normal, dir)| and the pixel's area are clamped to eps times the magnitudes
-///                  involved; the signed dot product is used, as printed
-/// error            16 eps * |dp_dx| |dp_dy| / |det|, relative to the largest term
+///                  involved; the signed dot product is used, as printed. A result beyond the scalar's
+///                  range saturates.
+/// error            16 eps * (kappa + 1 / |dot(normal, dir)|) * the largest term, which is at most
+///                  kappa * bump_scale * (|dst_dx| / |dp_dx| + |dst_dy| / |dp_dy|) / |dot(normal, dir)|,
+///                  kappa = |dp_dx| |dp_dy| / |det|; without the dot products when skipped
 /// source           Mikkelsen 2019, listing 10
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec2<T>
@@ -34,21 +37,23 @@ project_to_texture_space(const Frame<T>& frame, vec3<T> dir, vec2<T> dst_dx, vec
   const T det = dot(a, r1);
   const T s = select(det < zero, -one, one) / max(T(epsilon_v<T>), abs(det));
   // Pixels covered per unit of dir, then texture units.
-  const vec2<T> on_screen{s * inverse_x * dot(r1, dir), s * inverse_y * dot(r2, dir)};
-  const vec2<T> in_texture = on_screen.x * dst_dx + on_screen.y * dst_dy;
-  if (skip_projection) return bump_scale * in_texture;
+  const vec2<T> on_screen =
+      saturated(vec2<T>{s * (inverse_x * dot(r1, dir)), s * (inverse_y * dot(r2, dir))});
+  const vec2<T> in_texture = saturated(on_screen.x * dst_dx) + saturated(on_screen.y * dst_dy);
+  if (skip_projection) return saturated(bump_scale * in_texture);
   const T along = dot(frame.normal, dir);
   const T per_height =
       select(along < zero, -one, one) /
-      max(T(epsilon_v<T>) * max(max_abs(dir), T(std::numeric_limits<value_t<T>>::min())), abs(along));
-  return (bump_scale * per_height) * in_texture;
+      max(max(T(epsilon_v<T>) * max_abs(dir), T(std::numeric_limits<value_t<T>>::min())), abs(along));
+  return saturated((bump_scale * per_height) * in_texture);
 }
 
 /// A texture offset in pixels: the step (vx, vy) on the screen that changes st by texture_offset.
 ///
 /// degenerate  collapsed coordinates: the determinant is clamped to eps times the derivatives'
-///             magnitudes; zero derivatives give zero
-/// error       8 eps * |dst_dx| |dst_dy| / |det|, relative to the largest term
+///             magnitudes; zero derivatives give zero; a result beyond the scalar's range saturates
+/// error       8 eps * kappa^2 * |texture_offset| / |dst_dx| in x, / |dst_dy| in y,
+///             kappa = |dst_dx| |dst_dy| / |det|
 /// source      Mikkelsen 2019, listing 11
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec2<T> screen_offset(vec2<T> dst_dx, vec2<T> dst_dy,
@@ -61,19 +66,21 @@ template <Scalar T>
   const vec2<T> b = inverse_y * dst_dy;
   const T det = cross(a, b);
   const T s = select(det < zero, -one, one) / max(T(epsilon_v<T>), abs(det));
-  return {s * inverse_x * cross(texture_offset, b), s * inverse_y * cross(a, texture_offset)};
+  return saturated(
+      vec2<T>{s * (inverse_x * cross(texture_offset, b)), s * (inverse_y * cross(a, texture_offset))});
 }
 
 /// A texture offset as a vector in the tangent plane; adding it and height * bump_scale * normal to
 /// the position gives the displaced position.
 ///
-/// degenerate, error  as screen_offset
-/// source             Mikkelsen 2019, listing 11
+/// degenerate  as screen_offset
+/// error       10 eps * kappa^2 * |texture_offset| * (|sigma_x| / |dst_dx| + |sigma_y| / |dst_dy|)
+/// source      Mikkelsen 2019, listing 11
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> surface_offset(const Frame<T>& frame, vec2<T> dst_dx,
                                                                     vec2<T> dst_dy, vec2<T> texture_offset) {
   const vec2<T> v = screen_offset(dst_dx, dst_dy, texture_offset);
-  return v.x * frame.sigma_x + v.y * frame.sigma_y;
+  return saturated(v.x * frame.sigma_x) + saturated(v.y * frame.sigma_y);
 }
 
 /// The base normal at an offset position of a curved surface: normalize(n + vx dn_dx + vy dn_dy).
@@ -81,6 +88,7 @@ template <Scalar T>
 /// dn_dx, dn_dy  screen-space derivatives of the unit base normal
 /// v             from screen_offset
 /// degenerate    a vanishing sum gives zero
+/// error         6 eps * (1 + |v.x dn_dx| + |v.y dn_dy|) / |the sum|, per component
 /// source        Mikkelsen 2019, section 2.6
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> offset_normal(const Frame<T>& frame, vec3<T> dn_dx, vec3<T> dn_dy,

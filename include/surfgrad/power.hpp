@@ -16,11 +16,40 @@ template <Scalar T>
 inline constexpr bool single_precision = std::numeric_limits<value_t<T>>::digits <= 24;
 
 /// 2^n for an integer n whose power is a normal number.
-template <Scalar T>
-[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T power_of_two(int n) {
-  value_t<T> result = 1;
-  for (int i = 0; i < (n < 0 ? -n : n); ++i) result *= n < 0 ? value_t<T>(0.5) : value_t<T>(2);
-  return T(result);
+template <class Value>
+[[nodiscard]] SURFGRAD_HOST_DEVICE consteval Value power_of_two(int n) {
+  Value result = 1;
+  for (int i = 0; i < (n < 0 ? -n : n); ++i) result *= n < 0 ? Value(0.5) : Value(2);
+  return result;
+}
+
+/// One rung of log2's ladder: m into [1, 2^step) by powers of two, which go to the exponent.
+template <int step, Scalar T>
+SURFGRAD_HOST_DEVICE constexpr void extract_exponent(T& m, T& exponent) {
+  const T up = T(power_of_two<value_t<T>>(step));
+  const T down = T(power_of_two<value_t<T>>(-step));
+  const T s = T(static_cast<value_t<T>>(step));
+  const mask_t<T> large = !(m < up);
+  m = select(large, m * down, m);
+  exponent = select(large, exponent + s, exponent);
+  // m * up < 2 keeps m within [1, 2) at the end: it stops where the next lower rung takes over.
+  const mask_t<T> small = m * up < constant<T>(2);
+  m = select(small, m * up, m);
+  exponent = select(small, exponent - s, exponent);
+  if constexpr (step > 1) extract_exponent<step / 2>(m, exponent);
+}
+
+/// One rung of exp2's ladder: rest into (-step, step), its whole part into the power.
+template <int step, Scalar T>
+SURFGRAD_HOST_DEVICE constexpr void extract_power(T& rest, T& power) {
+  const T s = T(static_cast<value_t<T>>(step));
+  const mask_t<T> large = !(rest < s);
+  power = select(large, power * T(power_of_two<value_t<T>>(step)), power);
+  rest = select(large, rest - s, rest);
+  const mask_t<T> small = !(-s < rest);
+  power = select(small, power * T(power_of_two<value_t<T>>(-step)), power);
+  rest = select(small, rest + s, rest);
+  if constexpr (step > 1) extract_power<step / 2>(rest, power);
 }
 
 } // namespace detail
@@ -39,17 +68,7 @@ template <Scalar T>
   T m = max(a, T(std::numeric_limits<value_t<T>>::min()));
   m = min(m, T(std::numeric_limits<value_t<T>>::max()));
   T exponent = zero;
-  for (int step = widest; step >= 1; step /= 2) {
-    const T up = detail::power_of_two<T>(step);
-    const T down = detail::power_of_two<T>(-step);
-    const mask_t<T> large = !(m < up);
-    m = select(large, m * down, m);
-    exponent = select(large, exponent + T(static_cast<value_t<T>>(step)), exponent);
-    // m * up < 2 keeps m within [1, 2) at the end: it stops where the next lower step takes over.
-    const mask_t<T> small = m * up < constant<T>(2);
-    m = select(small, m * up, m);
-    exponent = select(small, exponent - T(static_cast<value_t<T>>(step)), exponent);
-  }
+  detail::extract_exponent<widest>(m, exponent);
   // Centre the range on 1: m in [sqrt(1/2), sqrt(2)), where log2(m) = 2/ln2 * atanh((m-1)/(m+1)).
   const mask_t<T> upper = constant<T>(1.41421356237309514547) < m;
   m = select(upper, m * constant<T>(0.5), m);
@@ -81,15 +100,7 @@ template <Scalar T>
   // NaN is in both masks; the selection below lets vanishes win.
   T rest = select(vanishes | saturates, zero, a);
   T power = one;
-  for (int step = widest; step >= 1; step /= 2) {
-    const T s = T(static_cast<value_t<T>>(step));
-    const mask_t<T> large = !(rest < s);
-    power = select(large, power * detail::power_of_two<T>(step), power);
-    rest = select(large, rest - s, rest);
-    const mask_t<T> small = !(-s < rest);
-    power = select(small, power * detail::power_of_two<T>(-step), power);
-    rest = select(small, rest + s, rest);
-  }
+  detail::extract_power<widest>(rest, power);
   // rest in (-1, 1): square the exponential of half of it, so that the series converges fast.
   constexpr double half_ln2 = 0.34657359027997264311;
   const T x = rest * constant<T>(half_ln2);

@@ -11,18 +11,22 @@ namespace surfgrad {
 /// frame       the pass's frame; surfgrad is the weighted sum of all its surface gradients
 /// returns     unit normal, in the frame's space. On a back face in mode flip it is the negative of
 ///             the front side's.
-/// degenerate  zero normal with zero gradient gives zero
+/// degenerate  a zero base normal gives zero, whatever the gradient; NaN propagates
 /// error       4 eps per component
 /// source      Mikkelsen 2019, listing 1, equation 1
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> resolve_normal(const Frame<T>& frame, vec3<T> surfgrad) {
-  return normalize_or_zero(frame.normal - frame.resolve_sign * surfgrad);
+  const T zero = T(value_t<T>(0));
+  const mask_t<T> absent = (frame.normal.x == zero) & (frame.normal.y == zero) & (frame.normal.z == zero);
+  const vec3<T> resolved = normalize_or_zero(frame.normal - frame.resolve_sign * surfgrad);
+  return select<T>(absent, vec3<T>{zero, zero, zero}, resolved);
 }
 
 /// Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-n', n).
 ///
 /// resolved        perturbed normal
 /// initial_normal  unit base normal (negated on back faces) as it was before the first resolve
+/// error           6 eps per component
 /// source          Mikkelsen 2019, section 2.10. Equal to BackFaces::flip for one pass; across a
 ///                 post-resolve volume layer it is not, so prefer the mode.
 template <Scalar T>
@@ -38,7 +42,8 @@ template <Scalar T>
 /// v        a normal, or N - surfgrad as a whole. A surface gradient alone does not transform this
 ///          way: it would leave the tangent plane.
 /// returns  not unit. Points outward for mirrored objects too, where cof(M) alone points inward.
-/// degenerate  a singular M gives cof(M) * v, which may be zero
+/// degenerate  a singular M gives cof(M) * v, which may be zero. Elements of M beyond 1e12 or below
+///             1e-12 may leave the range of float: the result has the square of their size.
 /// error    8 eps * |M|^2 * |v|
 /// source   Golubev, equations 25, 33, 36
 template <Scalar T>
@@ -57,8 +62,9 @@ template <Scalar T>
 /// returns       rotation * sign(det scale) * cof(scale) * inverse_transpose([dp_du dp_dv normal]);
 ///               times M_tile * N_t and normalised it is the world-space perturbed normal
 /// degenerate    parallel dp_du, dp_dv: the first two columns are zero (no bump), the third carries
-///               the transformed normal
-/// error         16 eps * |scale|^2 * |dp_du| |dp_dv| / |det|
+///               the transformed normal. Elements beyond the scalar's range saturate.
+/// error         16 eps * |scale|^2 in the third column; in the first two kappa^2 / |dp_du| and
+///               kappa^2 / |dp_dv| times that, kappa = |dp_du| |dp_dv| / |det|
 /// source        Golubev, equations 6, 28, 29
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr mat3<T>
@@ -74,14 +80,20 @@ tangent_normal_matrix(const mat3<T>& rotation, const mat3<T>& scale, vec3<T> dp_
   const mask_t<T> collapsed = abs(det) < T(epsilon_v<T>);
   const T s = select(collapsed, zero, one / select(collapsed, one, det));
   // Columns: what +du, +dv of the height and the base normal contribute (Golubev, equation 6).
-  const vec3<T> column_u = (s * inverse_u) * cross(b, normal);
-  const vec3<T> column_v = (s * inverse_v) * cross(normal, a);
+  const vec3<T> column_u = saturated(s * inverse_u) * cross(b, normal);
+  const vec3<T> column_v = saturated(s * inverse_v) * cross(normal, a);
   const mat3<T> inverse_transpose{{column_u.x, column_v.x, normal.x},
                                   {column_u.y, column_v.y, normal.y},
                                   {column_u.z, column_v.z, normal.z}};
-  const T side = select(determinant(scale) < zero, -one, one);
-  const mat3<T> c = cofactor(scale);
-  return rotation * (mat3<T>{side * c.x, side * c.y, side * c.z} * inverse_transpose);
+  // The scale in units of its own magnitude, too: its cofactors are products of two.
+  const T size = max(max(max_abs(scale.x), max_abs(scale.y)), max_abs(scale.z));
+  const T inverse_size = reciprocal_or_zero(size);
+  const mat3<T> unit{inverse_size * scale.x, inverse_size * scale.y, inverse_size * scale.z};
+  const T side = select(determinant(unit) < zero, -one, one);
+  const mat3<T> c = cofactor(unit);
+  const mat3<T> m = rotation * (mat3<T>{side * c.x, side * c.y, side * c.z} * inverse_transpose);
+  const T area = saturated(size * size);
+  return {saturated(area * m.x), saturated(area * m.y), saturated(area * m.z)};
 }
 
 /// The same for a scale along the object's axes.

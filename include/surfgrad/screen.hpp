@@ -21,18 +21,20 @@ struct TextureDerivatives {
 /// parallax-displaced surfaces and depth edges, where differences between pixels mean nothing.
 ///
 /// position           of the fragment
-/// normal             of the plane, any length. Where it faces away from the viewer along v, n - 2 dot(v, n)
-/// v
-///                    may serve better (section 2.11).
+/// normal             of the plane, any length. Where it faces away from the viewer in direction v,
+///                    n - 2 dot(v, n) v may serve better (section 2.11).
 /// world_from_screen  takes (x, y, depth, 1) in pixels to the space of position and normal, before
 ///                    the division by w
 /// x, y               fragment coordinate (pixel centres at .5)
 /// returns            dp_dx, dp_dy per pixel; both lie in the plane
-/// degenerate         plane seen edge-on: its screen-space depth slope is clamped to eps of the
-///                    plane's size, which bounds the result. w = 0 gives zero. No result depends on
-///                    the scale of the scene, the normal or the matrix.
-/// error              32 eps * kappa relative, kappa the ratio of the largest term to |w| and to the
-///                    plane's depth coefficient
+/// degenerate         plane seen edge-on: its depth coefficient on the screen is clamped to eps of the
+///                    plane's largest, which bounds the result. w = 0 gives zero; a zero normal gives
+///                    the derivatives at depth 0; NaN propagates; a result beyond the scalar's range
+///                    saturates. No result depends on the scale of the scene, the normal or the matrix.
+/// error              16 eps * the same formulas with every term taken by magnitude, but the two
+///                    divisors as they are: cancellation in the depth coefficient and in w amplifies
+///                    rounding (some 1e-5 of the result in float, for a clip distance of 1 / 100 of the
+///                    point's)
 /// source             Mikkelsen 2019, listing 17
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE ScreenDerivatives<T>
@@ -44,7 +46,7 @@ screen_derivatives(vec3<T> position, vec3<T> normal, const mat4<T>& world_from_s
   const mat4<T> columns = transpose(world_from_screen);
   // Plane in screen space: A x + B y + C z + D = 0, so z = -(A x + B y + D) / C.
   const vec4<T> on_screen = columns * plane;
-  const T size = max(max(abs(on_screen.x), abs(on_screen.y)), abs(on_screen.z));
+  const T size = max(max(abs(on_screen.x), abs(on_screen.y)), max(abs(on_screen.z), abs(on_screen.w)));
   const T least = max(T(epsilon_v<T>) * size, T(std::numeric_limits<value_t<T>>::min()));
   const T depth_slope = select(on_screen.z < zero, -one, one) * max(least, abs(on_screen.z));
   const T ac = -(on_screen.x / depth_slope);
@@ -56,15 +58,17 @@ screen_derivatives(vec3<T> position, vec3<T> normal, const mat4<T>& world_from_s
   const vec4<T> hit = x * v0 + y * v1 + v2; // homogeneous point of the plane under (x, y)
   // (f / w)' = (f' - (f / w) w') / w, with one division by w at a time: w * w may underflow.
   const T inverse_w = reciprocal_or_zero(hit.w);
-  const vec3<T> p = inverse_w * vec3<T>{hit.x, hit.y, hit.z};
-  return {inverse_w * (vec3<T>{v0.x, v0.y, v0.z} - v0.w * p),
-          inverse_w * (vec3<T>{v1.x, v1.y, v1.z} - v1.w * p)};
+  const vec3<T> p = saturated(inverse_w * vec3<T>{hit.x, hit.y, hit.z});
+  return {saturated(inverse_w * (vec3<T>{v0.x, v0.y, v0.z} - v0.w * p)),
+          saturated(inverse_w * (vec3<T>{v1.x, v1.y, v1.z} - v1.w * p))};
 }
 
 /// Screen-space derivatives of a projected texture coordinate from its volume gradients.
 ///
 /// grad_s, grad_t  gradients of s and t in space, e.g. decal axes times the tiling
 /// returns         dst_dx, dst_dy: right on displaced surfaces and across depth edges
+/// error           1.5 eps * the sum of the magnitudes of the terms
+/// source          Mikkelsen 2019, section 2.9: s and t are functions of space
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr TextureDerivatives<T>
 projected_derivatives(vec3<T> grad_s, vec3<T> grad_t, vec3<T> dp_dx, vec3<T> dp_dy) {
@@ -75,7 +79,7 @@ projected_derivatives(vec3<T> grad_s, vec3<T> grad_t, vec3<T> dp_dx, vec3<T> dp_
 ///
 /// size        width and height of the map's level 0, in texels
 /// returns     may be negative (magnification); the sampler clamps it
-/// degenerate  a zero footprint gives the logarithm of the smallest normal number: level 0
+/// degenerate  a zero footprint gives the logarithm of the smallest normal number less a half: level 0
 /// error       4 eps * max(1, |lod|)
 /// source      Mikkelsen 2019, section 3: compute it from the coordinate before a parallax correction,
 ///             sample with it after

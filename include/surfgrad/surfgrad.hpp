@@ -4,9 +4,11 @@
 
 #include <surfgrad/decal.hpp>
 #include <surfgrad/derivative.hpp>
+#include <surfgrad/fractal.hpp>
 #include <surfgrad/frame.hpp>
 #include <surfgrad/gradient.hpp>
 #include <surfgrad/noise.hpp>
+#include <surfgrad/noise_hash.hpp>
 #include <surfgrad/parallax.hpp>
 #include <surfgrad/parallax_march.hpp>
 #include <surfgrad/power.hpp>
@@ -15,3 +17,4 @@
 #include <surfgrad/screen.hpp>
 #include <surfgrad/triplanar.hpp>
 #include <surfgrad/vec.hpp>
+#include <surfgrad/worley.hpp>

@@ -54,18 +54,19 @@ struct TriplanarSigns {
 /// normal      unit base normal
 /// k           sharpness, uniform, positive
 /// returns     weights that sum to 1: max(0, |n| - 0.2)^k, normalised
-/// degenerate  zero normal gives 1/3 each. The largest term is divided out before the power, so no
-///             k underflows to 0 / 0.
-/// error       (8 + 2k * 8) eps: k multiplies the logarithm's error, the ratios reach 2^-8 before
-///             their weight no longer matters
+/// degenerate  zero normal gives 1/3 each; a NaN component counts as zero. The largest term is divided
+///             out before the power, so no k underflows to 0 / 0.
+/// error       (5 + 4k) eps: a ratio r of two terms has rounded by 2 eps, which its power k times r^(k-1)
+///             multiplies; pow adds 4 + 2 |log2(r^k)| relative, whose product with r^k stays under 5 eps
 /// source      Mikkelsen 2019, listing 14
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> triplanar_weights(vec3<T> normal,
                                                                        value_t<T> k = value_t<T>(3)) {
   const T zero = T(value_t<T>(0));
   const T offset = constant<T>(0.2);
-  const vec3<T> w{max(zero, abs(normal.x) - offset), max(zero, abs(normal.y) - offset),
-                  max(zero, abs(normal.z) - offset)};
+  // max gives its second operand for NaN.
+  const vec3<T> w{max(abs(normal.x) - offset, zero), max(abs(normal.y) - offset, zero),
+                  max(abs(normal.z) - offset, zero)};
   const T largest = max_abs(w);
   // A unit normal has a component of at least 1/sqrt(3) > 0.2; only the zero normal has none.
   const mask_t<T> none = largest == zero;
@@ -92,7 +93,7 @@ triplanar_coordinates(vec3<T> p, TriplanarConvention convention = {}) {
 /// Volume gradient of one planar projection along an axis: no normal needed.
 ///
 /// deriv    (dh/ds, dh/dt) sampled at that plane's coordinate of triplanar_coordinates
-/// returns  gradient with respect to the position; the component along the axis is zero
+/// returns  gradient with respect to the position, exact; the component along the axis is zero
 /// source   Mikkelsen 2019, section 2.8; Golubev, equations 44, 50
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> planar_gradient(PlaneAxis axis, vec2<T> deriv,
@@ -137,6 +138,7 @@ template <Scalar T>
 ///
 /// normal   unit base normal: the interpolated one, or a resolved one in a later pass
 /// returns  from_volume_gradient(normal, triplanar_gradient(...))
+/// error    8 eps * (weights.x |deriv_x| + weights.y |deriv_y| + weights.z |deriv_z|)
 /// source   Mikkelsen 2019, listing 13
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T>

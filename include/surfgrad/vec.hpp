@@ -117,6 +117,22 @@ template <Scalar T>
   return select(vanishes, T(value_t<T>(0)), T(value_t<T>(1)) / select(vanishes, T(value_t<T>(1)), a));
 }
 
+/// a within a sixteenth of the largest finite number, so that a few of them can be added: what a result
+/// beyond the scalar's range becomes instead of Inf. NaN stays NaN.
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T saturated(T a) {
+  const T most = T(std::numeric_limits<value_t<T>>::max() / 16);
+  return min(most, max(-most, a)); // the second operand survives a comparison with NaN
+}
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec2<T> saturated(vec2<T> v) {
+  return {saturated(v.x), saturated(v.y)};
+}
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> saturated(vec3<T> v) {
+  return {saturated(v.x), saturated(v.y), saturated(v.z)};
+}
+
 /// v / |v| for every magnitude, without overflow or underflow on the way.
 ///
 /// degenerate  zero, or a vector of subnormal components, gives zero. NaN propagates; Inf gives NaN.

@@ -7,6 +7,7 @@
 /// core's scalar, lane by lane.
 
 #include <array>
+#include <bit>
 #include <surfgrad/scalar.hpp>
 
 namespace surfgrad::simd {
@@ -78,9 +79,8 @@ constexpr EmulatedBits operator<<(const EmulatedBits& a, int n) { return detail:
 
 /// Lane by lane, a where the mask is set, else b.
 template <class Value, class Tag>
-[[nodiscard]] constexpr EmulatedLanes<Value, Tag> select(const EmulatedMask& m,
-                                                         const EmulatedLanes<Value, Tag>& a,
-                                                         const EmulatedLanes<Value, Tag>& b) {
+[[nodiscard]] constexpr EmulatedLanes<Value, Tag>
+select(const EmulatedMask& m, const EmulatedLanes<Value, Tag>& a, const EmulatedLanes<Value, Tag>& b) {
   return detail::each_lane<EmulatedLanes<Value, Tag>>([](bool s, Value x, Value y) { return s ? x : y; }, m,
                                                       a, b);
 }
@@ -112,6 +112,11 @@ template <class Value, class Tag>
 /// Truncates; saturates; NaN gives 0.
 [[nodiscard]] constexpr EmulatedIndex to_index(const EmulatedFloat& a) {
   return detail::each_lane<EmulatedIndex>([](float x) { return surfgrad::to_index(x); }, a);
+}
+/// The floats whose bits these are.
+template <std::same_as<EmulatedFloat> T>
+[[nodiscard]] constexpr T float_from_bits(const EmulatedBits& a) {
+  return detail::each_lane<T>([](std::uint32_t x) { return std::bit_cast<float>(x); }, a);
 }
 /// Unset lanes read nothing and give 0.
 [[nodiscard]] constexpr EmulatedBits gather(Words words, const EmulatedIndex& index, const EmulatedMask& m) {
