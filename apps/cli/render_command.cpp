@@ -18,6 +18,7 @@ struct RenderCommand {
   std::string depth;
   render::Options job;
   std::vector<double> view;
+  std::string environment;
 };
 
 void run(RenderCommand& command) {
@@ -36,6 +37,8 @@ void run(RenderCommand& command) {
       scene.camera.position.reset();
       scene.camera.target.reset();
     }
+    if (!command.environment.empty())
+      scene.environment = std::make_shared<image::Image>(io::read_image(command.environment));
     const render::Picture picture = render::render(scene, command.job, console.report());
     const bool raw = depth == image::Depth::half || depth == image::Depth::float32;
     io::write_image(output, raw ? picture.image : render::encoded_for_display(picture, command.job.aov),
@@ -86,6 +89,9 @@ void add_render_command(CLI::App& program) {
   verb.add_option("--view", command->view, "look from yaw and pitch in degrees instead of the scene's camera")
       ->expected(2)
       ->type_name("YAW PITCH");
+  verb.add_option("--environment", command->environment,
+                  "light with this panorama (latitude and longitude: .hdr, .exr, ...) instead of the sky")
+      ->type_name("FILE");
   verb.add_option("--depth", command->depth,
                   "8, 16, half or float (default: 8 for PNG and TIFF, float for EXR)")
       ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))

@@ -40,10 +40,15 @@ vec3<double> texel_normal(const stage::Stage& stage, const scene::Scene& scene, 
   if (options.space == Space::object) {
     // The transpose of M takes normals back: it is the inverse of the inverse transpose.
     const mat3<double> linear = stage::linear_part(scene.objects[what.surface].world_from_object);
-    return normalize_or_zero(transpose(linear) * c.normal);
+    const vec3<double> n = normalize_or_zero(transpose(linear) * c.normal);
+    if (max_abs(n) > 0 || max_abs(c.normal) == 0) return n;
+    ++counts.singular;
+    return {0, 0, 1};
   }
   const raster::UvFragment<double>& uv = fragment.uvs[slot];
-  const TangentNormal t = in_vertex_frame(fragment.normal, uv.tangent, uv.sign, c.normal);
+  // What decodes the map interpolates the same normals: where they cancel it has no frame.
+  const vec3<double> normal = fragment.normal_is_absent ? vec3<double>{0, 0, 0} : fragment.normal;
+  const TangentNormal t = in_vertex_frame(normal, uv.tangent, uv.sign, c.normal);
   counts.singular += t.singular;
   counts.clamped += t.clamped;
   return t.normal;

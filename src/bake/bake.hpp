@@ -25,9 +25,10 @@ struct Baked {
   image::Image map; ///< rgb, n / 2 + 1/2; (0, 0, 1) where no surface lies
   std::int64_t covered = 0;
   std::int64_t overlapping = 0; ///< texels that more than one triangle covers; the lowest index wins
-  std::int64_t singular = 0;    ///< texels whose vertex frame cannot be inverted: flat in the map
-  std::int64_t clamped = 0;     ///< texels whose normal lies below the tangent plane: steepest slope
-  std::int64_t degenerate = 0;  ///< texels where a layer's own frame did not exist: that layer is flat
+  /// Texels whose vertex frame (or, in object space, transform) cannot be inverted: (0, 0, 1).
+  std::int64_t singular = 0;
+  std::int64_t clamped = 0;    ///< texels whose normal lies below the tangent plane: steepest slope
+  std::int64_t degenerate = 0; ///< texels without a normal, or where a layer found no frame: it is flat
 };
 
 /// Bakes a scene's stack into one normal map over UV set 0, at texel centres, with the reference

@@ -29,7 +29,7 @@ template <LaneScalar T>
   Frame<T> frame =
       make_frame(fragment.normal, fragment.dp_dx, fragment.dp_dy, fragment.front_facing, back_faces);
   const vec3<T> base = frame.normal;
-  mask_t<T> degenerate = max_abs(base) == zero;
+  mask_t<T> degenerate = fragment.normal_is_absent | mask_t<T>(max_abs(base) == zero);
   vec3<T> sum = none;
   bool first_pass = true;
   const auto run = [&](const auto& layer) {

@@ -91,6 +91,15 @@ Influence influence_of(const stack::LayerCommon& common, const std::vector<raste
   return influence;
 }
 
+void require_channels(const image::Image& image, int least, const stack::Map& use, const char* what) {
+  if (image.channels >= least) return;
+  throw InputError(
+      {.file = use.file.path,
+       .place = use.file.key,
+       .problem = "has " + std::to_string(image.channels) + (image.channels == 1 ? " channel" : " channels"),
+       .remedy = what + std::string(least == 3 ? " of x, y and z needs three" : " needs two or three")});
+}
+
 void add_slot(const stack::Texture& use, bool tangents, std::vector<raster::UvSlot>& slots) {
   const auto found =
       std::find_if(slots.begin(), slots.end(), [&](const raster::UvSlot& s) { return s.uv_set == use.uv; });
@@ -132,6 +141,7 @@ std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::Map& use) {
                     (green_up ? " up " : " down ") + use.file.path.string()];
   if (!map) {
     const image::Image& image = find_(use.file.path);
+    require_channels(image, use.channels == stack::Channels::xyz ? 3 : 2, use, "a normal map");
     image::SlopeMap slopes = image::make_slope_map(image, channels_of(use.channels), green_up);
     if (slopes.inward_texels > 0)
       inward_.push_back({use.file.path, slopes.inward_texels, std::int64_t{image.width} * image.height});
@@ -141,15 +151,12 @@ std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::Map& use) {
 }
 
 std::shared_ptr<const image::Map> MapLibrary::directions(const stack::Map& use) {
-  auto& map = maps_["directions " + use.file.path.string()];
+  const bool green_up = use.green == stack::Green::up;
+  auto& map = maps_[std::string("directions") + (green_up ? " up " : " down ") + use.file.path.string()];
   if (!map) {
     const image::Image& image = find_(use.file.path);
-    if (image.channels < 3)
-      throw InputError({.file = use.file.path,
-                        .place = use.file.key,
-                        .problem = "has " + std::to_string(image.channels) + " channels",
-                        .remedy = "an object-space normal map needs three"});
-    map = std::make_shared<image::Map>(image::make_direction_map(image));
+    require_channels(image, 3, use, "an object-space normal map");
+    map = std::make_shared<image::Map>(image::make_direction_map(image, green_up));
   }
   return map;
 }

@@ -16,12 +16,14 @@ void for_each_row(int count, const Report& report, const std::function<void(int)
   tbb::parallel_for(0, count, [&](int row) {
     if (stop) return;
     work(row);
-    const int finished = ++done;
+    ++done;
     if (!report.progress) return;
-    // Whoever finds the callback busy leaves the report to a later row.
+    // Whoever finds the callback busy leaves the report to a later row, the last row to the end.
     const std::unique_lock<std::mutex> lock(reporting, std::try_to_lock);
-    if (lock && !report.progress(static_cast<double>(finished) / count)) stop = true;
+    const int finished = done; // read inside the lock: reports never go back
+    if (lock && finished < count && !report.progress(static_cast<double>(finished) / count)) stop = true;
   });
+  if (!stop && report.progress && !report.progress(1)) stop = true;
   if (stop) throw Cancelled();
 }
 

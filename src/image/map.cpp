@@ -15,7 +15,7 @@ using Texels = std::vector<float>;
 /// that odd sizes neither shift nor lose energy.
 struct Footprint {
   int first;
-  std::vector<float> weights; // sum to 1
+  std::vector<double> weights; // sum to 1
 };
 
 std::vector<Footprint> footprints(int from, int to) {
@@ -26,8 +26,7 @@ std::vector<Footprint> footprints(int from, int to) {
     const double high = (i + 1) * scale;
     Footprint f{static_cast<int>(low), {}};
     for (int j = f.first; j < from && j < high; ++j)
-      f.weights.push_back(
-          static_cast<float>((std::min<double>(j + 1, high) - std::max<double>(j, low)) / scale));
+      f.weights.push_back((std::min<double>(j + 1, high) - std::max<double>(j, low)) / scale);
     result.push_back(std::move(f));
   }
   return result;
@@ -44,8 +43,7 @@ Texels halve(const Texels& source, int width, int height, int to_width, int to_h
         for (std::size_t j = 0; j < rows[y].weights.size(); ++j)
           for (std::size_t i = 0; i < columns[x].weights.size(); ++i) {
             const std::size_t texel = (rows[y].first + j) * width + columns[x].first + i;
-            sum += static_cast<double>(rows[y].weights[j]) * columns[x].weights[i] *
-                   source[texel * components + c];
+            sum += rows[y].weights[j] * columns[x].weights[i] * source[texel * components + c];
           }
         result[(static_cast<std::size_t>(y) * to_width + x) * components + c] = static_cast<float>(sum);
       }
@@ -85,9 +83,13 @@ bool other_channels_vary(const Image& image) {
   return false;
 }
 
-vec3<float> decoded(const Image& image, std::size_t texel) {
+/// In double: a slope or direction is rounded once, when it is stored. Zero for a texel of a float file
+/// that is not finite, which would otherwise spread over every level.
+vec3<double> decoded(const Image& image, std::size_t texel) {
   const float* t = &image.texels[texel * static_cast<std::size_t>(image.channels)];
-  return {2 * t[0] - 1, 2 * t[1] - 1, image.channels > 2 ? 2 * t[2] - 1 : 1.0f};
+  const vec3<double> m{2.0 * t[0] - 1, 2.0 * t[1] - 1, image.channels > 2 ? 2.0 * t[2] - 1 : 1.0};
+  const bool finite = std::isfinite(m.x) && std::isfinite(m.y) && std::isfinite(m.z);
+  return finite ? m : vec3<double>{0, 0, 0};
 }
 
 std::size_t texel_count(const Image& image) {
@@ -105,12 +107,9 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
   result.channels = channels;
   Texels slopes(2 * texel_count(image));
   for (std::size_t i = 0; i < texel_count(image); ++i) {
-    const vec3<float> m = decoded(image, i);
-    // In double: the slope is stored once rounded, whatever the precision of the source.
-    const vec3<double> exact{m.x, m.y, m.z};
-    const vec2<double> d = channels == NormalChannels::xy
-                               ? derivative_from_normal(vec2<double>{exact.x, exact.y})
-                               : derivative_from_normal(exact);
+    const vec3<double> m = decoded(image, i);
+    const vec2<double> d = channels == NormalChannels::xy ? derivative_from_normal(vec2<double>{m.x, m.y})
+                                                          : derivative_from_normal(m);
     if (channels == NormalChannels::xyz && !(m.z > 0)) ++result.inward_texels;
     slopes[2 * i] = static_cast<float>(d.x);
     slopes[2 * i + 1] = static_cast<float>(green_up ? d.y : -d.y);
@@ -119,13 +118,12 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
   return result;
 }
 
-Map make_direction_map(const Image& image) {
+Map make_direction_map(const Image& image, bool green_up) {
   Texels directions(3 * texel_count(image));
   for (std::size_t i = 0; i < texel_count(image); ++i) {
-    const vec3<float> m = decoded(image, i);
-    const vec3<double> u = normalize_or_zero(vec3<double>{m.x, m.y, m.z});
+    const vec3<double> u = normalize_or_zero(decoded(image, i));
     directions[3 * i] = static_cast<float>(u.x);
-    directions[3 * i + 1] = static_cast<float>(u.y);
+    directions[3 * i + 1] = static_cast<float>(green_up ? u.y : -u.y);
     directions[3 * i + 2] = static_cast<float>(u.z);
   }
   return with_pyramid(std::move(directions), image.width, image.height, 3);
@@ -136,9 +134,11 @@ Map make_channel_map(const Image& image, int channel) {
   const int alpha = has_alpha ? image.channels - 1 : -1;
   const int colors = has_alpha ? image.channels - 1 : image.channels;
   const int source = channel == 3 ? alpha : std::min(channel, colors - 1);
-  Texels values(texel_count(image));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = source < 0 ? 1.0f : image.texels[i * static_cast<std::size_t>(image.channels) + source];
+  Texels values(texel_count(image), 1.0f);
+  for (std::size_t i = 0; source >= 0 && i < values.size(); ++i) {
+    const float value = image.texels[i * static_cast<std::size_t>(image.channels) + source];
+    values[i] = min(max(value, 0.0f), 1.0f); // NaN becomes 0
+  }
   return with_pyramid(std::move(values), image.width, image.height, 1);
 }
 

@@ -43,16 +43,20 @@ struct SlopeMap {
 
 /// Slopes of a tangent-space normal map (code values 0..1 mean -1..1).
 ///
+/// image     at least two channels; three where `channels` is xyz
 /// green_up  the map's green grows with t; false negates the second slope (section 2.1)
+/// not finite texels of a float file are flat; with three channels they count as inward
 /// source    derivative_from_normal, texel by texel
 [[nodiscard]] SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up);
 
-/// Unit directions of an object- or world-space normal map; zero vectors stay zero.
-/// The image must have at least three channels.
-[[nodiscard]] Map make_direction_map(const Image& image);
+/// Unit directions of an object- or world-space normal map; zero vectors stay zero, and so become
+/// those that are not finite. The image must have at least three channels.
+///
+/// green_up  false negates the second component
+[[nodiscard]] Map make_direction_map(const Image& image, bool green_up);
 
-/// One channel as a scalar map; a channel that the image lacks reads as the last one it has, except
-/// alpha, which reads as 1.
+/// One channel as a map of weights within [0, 1]: a float file's values are clamped, NaN becomes 0. A
+/// channel that the image lacks reads as the last one it has, except alpha, which reads as 1.
 [[nodiscard]] Map make_channel_map(const Image& image, int channel);
 
 } // namespace surfgrad::image

@@ -70,7 +70,9 @@ template <LaneScalar T>
   const T x = wrap_coordinate(s, wrap) * T(n) - constant<T>(0.5);
   const T low = floor(x);
   const index_t<T> i = to_index(low);
-  return {wrap_index<T>(i, n, wrap), wrap_index<T>(index_t<T>(i + index_constant<T>(1)), n, wrap), x - low};
+  // The maximum replaces NaN, so that no coordinate turns finite texels into NaN.
+  return {wrap_index<T>(i, n, wrap), wrap_index<T>(index_t<T>(i + index_constant<T>(1)), n, wrap),
+          max(x - low, T(value_t<T>(0)))};
 }
 
 template <int N, LaneScalar T>
@@ -124,7 +126,7 @@ template <int N, LaneScalar T>
 /// st      normalised, lower-left origin; texel centres lie at (i + 0.5) / size
 /// lod     mip level, clamped to the pyramid; only trilinear uses it
 /// active  lanes to sample; others give 0
-/// NaN     coordinates read some texel and give NaN weights
+/// NaN     and infinite coordinates read some texel; a NaN lod reads level 0
 template <int N, LaneScalar T>
 [[nodiscard]] std::array<T, N> sample(const Map& map, vec2<T> st, T lod, Wraps wrap, Filter filter,
                                       mask_t<T> active) {

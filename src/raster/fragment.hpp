@@ -24,7 +24,8 @@ struct UvFragment {
 template <class T>
 struct Fragment {
   vec3<T> position;
-  vec3<T> normal; ///< interpolated, any length; the triangle's own where interpolation gives zero
+  vec3<T> normal;             ///< interpolated, any length
+  mask_t<T> normal_is_absent; ///< interpolation gives zero: `normal` is the triangle's own
   vec3<T> dp_dx, dp_dy;
   mask_t<T> front_facing;
   std::array<UvFragment<T>, max_uv_slots> uvs;

@@ -56,13 +56,12 @@ Surface place_mesh(const mesh::TriangleMesh& mesh, const mat4<double>& world_fro
   return surface;
 }
 
-TrianglePlanes::TrianglePlanes(const std::array<vec3<double>, 3>& corners) {
+TrianglePlanes::TrianglePlanes(const std::array<vec3<double>, 3>& corners) : corners_(corners) {
   const double det = dot(corners[0], cross(corners[1], corners[2]));
   counter_clockwise_ = det > 0;
   degenerate_ = !(det > 0) && !(det < 0);
   if (degenerate_) return;
-  // Not divided by det: an edge seen from its two triangles gives exactly opposite functions, and
-  // the scale cancels in every use but inverse_w.
+  // Not divided by det: the scale cancels in every use but inverse_w.
   for (std::size_t i = 0; i < 3; ++i) {
     const vec3<double> e = cross(corners[(i + 1) % 3], corners[(i + 2) % 3]);
     edges_[i] = det > 0 ? e : -e;
@@ -72,9 +71,17 @@ TrianglePlanes::TrianglePlanes(const std::array<vec3<double>, 3>& corners) {
 
 bool TrianglePlanes::covers(double x, double y) const {
   if (degenerate_) return false;
-  for (const vec3<double>& e : edges_) {
-    const double value = e.x * x + e.y * y + e.z;
+  // The edge functions again, from corners relative to the point: exactly opposite for an edge's two
+  // triangles, and exactly zero for every edge of a corner on the point, so that rounding cannot give
+  // such a point to two triangles of a fan or to none.
+  std::array<vec2<double>, 3> corner;
+  for (std::size_t i = 0; i < 3; ++i)
+    corner[i] = {corners_[i].x - x * corners_[i].z, corners_[i].y - y * corners_[i].z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double area = cross(corner[(i + 1) % 3], corner[(i + 2) % 3]);
+    const double value = counter_clockwise_ ? area : -area;
     // On the edge itself the side is decided by the edge's direction: opposite for the neighbour.
+    const vec3<double>& e = edges_[i];
     const bool owns_edge = e.x > 0 || (e.x == 0 && e.y > 0);
     if (!(value > 0 || (value == 0 && owns_edge))) return false;
   }
@@ -125,7 +132,9 @@ Fragment<double> make_fragment(const Surface& surface, std::uint32_t triangle, c
   f.dp_dx = weighted<vec3<double>>(b.dx, position);
   f.dp_dy = weighted<vec3<double>>(b.dy, position);
   f.normal = weighted<vec3<double>>(b.value, normal);
-  if (f.normal.x == 0 && f.normal.y == 0 && f.normal.z == 0) f.normal = triangle_normal(surface, vertices);
+  // Vertex normals are unit or zero: what is shorter than this is the rounding of normals that cancel.
+  f.normal_is_absent = !(max_abs(f.normal) > 1e-12);
+  if (f.normal_is_absent) f.normal = triangle_normal(surface, vertices);
   f.front_facing = planes.counter_clockwise() != surface.mirrored;
   for (std::size_t s = 0; s < surface.slots.size(); ++s) {
     const Surface::Coordinates& slot = surface.slots[s];

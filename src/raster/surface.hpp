@@ -67,6 +67,7 @@ class TrianglePlanes {
   [[nodiscard]] Barycentrics barycentrics(double x, double y) const;
 
  private:
+  std::array<vec3<double>, 3> corners_;
   std::array<vec3<double>, 3> edges_{}; // edge function i = dot(edges_[i], (x, y, 1)), >= 0 inside
   double scale_ = 0;                    // 1 / |det|: turns their sum into 1 / w
   bool counter_clockwise_ = false;

@@ -22,13 +22,19 @@ void for_each_vertex(const scene::Scene& scene, const Visit& visit) {
     }
 }
 
+/// A level horizon. Straight up or down has none: then +x is right in the picture, as on a map.
 void look_along(Pinhole& camera, vec3<double> forward) {
   camera.forward = normalize_or_zero(forward);
-  // Straight up or down has no horizon: then -z is up in the picture, as on a map.
   const bool vertical = std::abs(camera.forward.y) > 0.999999;
-  const vec3<double> world_up =
-      vertical ? vec3<double>{0, 0, camera.forward.y > 0 ? 1.0 : -1.0} : vec3<double>{0, 1, 0};
-  camera.right = normalize_or_zero(cross(camera.forward, world_up));
+  const vec3<double> level{-camera.forward.z, 0, camera.forward.x};
+  camera.right = vertical ? vec3<double>{1, 0, 0} : normalize_or_zero(level);
+  camera.up = cross(camera.right, camera.forward);
+}
+
+/// Towards the origin from yaw and pitch. Yaw gives the horizon, so it also turns a view straight down.
+void look_from(Pinhole& camera, double yaw, double pitch) {
+  camera.forward = {-std::sin(yaw) * std::cos(pitch), -std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
+  camera.right = {std::cos(yaw), 0, -std::sin(yaw)};
   camera.up = cross(camera.right, camera.forward);
 }
 
@@ -64,9 +70,7 @@ Pinhole place_camera(const scene::Scene& scene, int width, int height) {
     camera.near = 1e-5 * size;
     return camera;
   }
-  const double yaw = radians(view.yaw_deg);
-  const double pitch = radians(view.pitch_deg);
-  look_along(camera, {-std::sin(yaw) * std::cos(pitch), -std::sin(pitch), -std::cos(yaw) * std::cos(pitch)});
+  look_from(camera, radians(view.yaw_deg), radians(view.pitch_deg));
   // Along one axis with tangent t, a camera shifted by c sees q at distance d where
   // |axis q - c| <= t (d + forward q). The largest axis q - t forward q and -axis q - t forward q
   // over all vertices give the c that centres the object and the least d that frames it.

@@ -34,29 +34,33 @@ struct Patch {
 vec3<double> texel_rgb(const image::Image& image, int x, int y) {
   const bool grey = image.channels < 3;
   // A half-float panorama may hold Inf around the sun; one such texel must not blank the picture.
-  const auto finite = [](float v) { return std::isfinite(v) ? std::clamp<double>(v, 0.0, 65504.0) : 0.0; };
+  const auto finite = [](float v) { return std::isnan(v) ? 0.0 : std::clamp<double>(v, 0.0, 65504.0); };
   return {finite(image.at(x, y, 0)), finite(image.at(x, y, grey ? 0 : 1)),
           finite(image.at(x, y, grey ? 0 : 2))};
 }
 
-/// The panorama as a few thousand patches of sky, each the mean of the texels inside it.
+/// The panorama as a few thousand patches of sky, each the mean of the texels inside it, or the texel
+/// around its lower left corner where texels are larger.
 std::vector<Patch> patches_of(const image::Image& panorama) {
-  const int width = std::min(source_width, panorama.width);
-  const int height = std::min(source_height, panorama.height);
+  constexpr int width = source_width;
+  constexpr int height = source_height;
   std::vector<Patch> patches;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const auto from = [](int i, int n, int size) {
         return static_cast<int>(static_cast<long long>(i) * size / n);
       };
+      const int u_begin = from(x, width, panorama.width);
+      const int v_begin = from(y, height, panorama.height);
+      const int u_end = std::max(from(x + 1, width, panorama.width), u_begin + 1);
+      const int v_end = std::max(from(y + 1, height, panorama.height), v_begin + 1);
       vec3<double> sum{0, 0, 0};
-      int count = 0;
-      for (int v = from(y, height, panorama.height); v < from(y + 1, height, panorama.height); ++v)
-        for (int u = from(x, width, panorama.width); u < from(x + 1, width, panorama.width); ++u, ++count)
-          sum = sum + texel_rgb(panorama, u, v);
+      for (int v = v_begin; v < v_end; ++v)
+        for (int u = u_begin; u < u_end; ++u) sum = sum + texel_rgb(panorama, u, v);
+      const double count = static_cast<double>(u_end - u_begin) * (v_end - v_begin);
       const double low = pi * (static_cast<double>(y) / height - 0.5);
       const double high = pi * (static_cast<double>(y + 1) / height - 0.5);
-      patches.push_back({direction_of(x, y, width, height), (1.0 / std::max(count, 1)) * sum,
+      patches.push_back({direction_of(x, y, width, height), (1.0 / count) * sum,
                          2 * pi / width * (std::sin(high) - std::sin(low))});
     }
   return patches;
@@ -107,8 +111,9 @@ vec3<double> Environment::look_up(const image::Image& panorama, vec3<double> dir
   const double turns = azimuth / (2 * pi);
   const double x = (turns - std::floor(turns)) * panorama.width - 0.5;
   const double y = std::clamp((elevation / pi + 0.5) * panorama.height - 0.5, 0.0, panorama.height - 1.0);
-  const int x0 = static_cast<int>(std::floor(x));
-  const int y0 = std::min(static_cast<int>(y), panorama.height - 1);
+  // to_index sends NaN to a texel too.
+  const int x0 = to_index(std::floor(x));
+  const int y0 = std::min(to_index(y), panorama.height - 1);
   const int y1 = std::min(y0 + 1, panorama.height - 1);
   const double fx = x - x0;
   const double fy = y - y0;

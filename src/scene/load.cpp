@@ -134,8 +134,8 @@ void check_uv(const stack::Texture& texture, const fs::path& source, const Objec
                  : "use a set from 0 to " + std::to_string(sets - 1)});
 }
 
-/// Every layer of every material in use finds its UV sets.
-void check_uv_sets(const Scene& scene, const fs::path& source) {
+/// Every layer of every material in use finds its UV sets. Layers without a line are the model's own.
+void check_uv_sets(const Scene& scene, const fs::path& document, const fs::path& model) {
   for (const Object& object : scene.objects) {
     const mesh::TriangleMesh& mesh = scene.meshes[object.mesh];
     const std::set<std::uint32_t> used(mesh.material_of_triangle.begin(), mesh.material_of_triangle.end());
@@ -144,6 +144,7 @@ void check_uv_sets(const Scene& scene, const fs::path& source) {
         std::visit(
             [&](const auto& l) {
               if constexpr (!std::is_same_v<std::decay_t<decltype(l)>, stack::ResolveLayer>) {
+                const fs::path& source = l.map.uv_line > 0 ? document : model;
                 check_uv(l.map, source, object, mesh, l.common.key + ".uv");
                 if (l.common.mask) check_uv(*l.common.mask, source, object, mesh, l.common.key + ".mask.uv");
               }
@@ -165,8 +166,10 @@ Scene load_document(const fs::path& file) {
   stack::Stack document =
       stack::parse_stack({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
   Scene scene;
+  fs::path model;
   if (document.mesh) {
-    take_model(io::read_model(beside(file, document.mesh->path)), scene);
+    model = beside(file, document.mesh->path);
+    take_model(io::read_model(model), scene);
   } else {
     Scene demo = demo_scene();
     scene.meshes = std::move(demo.meshes);
@@ -182,19 +185,17 @@ Scene load_document(const fs::path& file) {
     load_image(*scene.lights.environment, file, scene);
     scene.environment = scene.images.at(scene.lights.environment->path);
   }
+  check_uv_sets(scene, file, model);
   return scene;
 }
 
 } // namespace
 
 Scene load_scene(const fs::path& file) {
+  if (lower_extension(file) == ".json") return load_document(file);
   Scene scene;
-  if (lower_extension(file) == ".json") {
-    scene = load_document(file);
-  } else {
-    take_model(io::read_model(file), scene);
-  }
-  check_uv_sets(scene, file);
+  take_model(io::read_model(file), scene);
+  check_uv_sets(scene, file, file);
   return scene;
 }
 

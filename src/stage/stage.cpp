@@ -35,9 +35,9 @@ Stage::Stage(const scene::Scene& scene, vec3<double> origin, const std::vector<r
   for (const scene::Material& material : scene.materials)
     programs_.push_back(engine::compile(material.layers, slots_, maps));
   for (const auto& odd : maps.inward_texels())
-    report.warn(
-        fmt::format("{}: {} of {} texels point into the surface (z <= 0); their steepest slope is used",
-                    odd.file.string(), odd.count, odd.of));
+    report.warn(fmt::format(
+        "{}: {} of {} texels point into the surface (z <= 0); they are read as if z were positive",
+        odd.file.string(), odd.count, odd.of));
   for (const scene::Object& object : scene.objects) {
     surfaces_.push_back(
         raster::place_mesh(scene.meshes[object.mesh], object.world_from_object, origin, slots_));

@@ -40,10 +40,14 @@ template <LaneScalar T>
     basis = mikktspace_basis(fragment.normal, uv.tangent, uv.sign);
     if (!first_pass) basis = rebased_basis(frame, basis);
   }
-  degenerate = degenerate | (max_abs(basis.tangent) == T(value_t<T>(0)));
+  // No bitangent either means no tangent or one along the normal.
+  const mask_t<T> collapsed = max_abs(basis.bitangent) == T(value_t<T>(0));
+  degenerate = degenerate | collapsed;
   const std::array<T, 2> slope = sample<2>(layer.texture, fragment);
-  return from_tbn(along_coordinate(layer.texture, vec2<T>{slope[0], slope[1]}), basis.tangent,
-                  basis.bitangent);
+  const vec3<T> g =
+      from_tbn(along_coordinate(layer.texture, vec2<T>{slope[0], slope[1]}), basis.tangent, basis.bitangent);
+  const T zero = T(value_t<T>(0));
+  return select<T>(collapsed, vec3<T>{zero, zero, zero}, g);
 }
 
 } // namespace surfgrad::engine

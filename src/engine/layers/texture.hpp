@@ -63,14 +63,14 @@ struct Influence {
 };
 
 /// The pass's sum with one more surface gradient g. With w = mask * opacity:
-/// add: G + w * scale * g; mix: (1 - w) * G + w * scale * g.
+/// add: G + w * scale * g; mix: (1 - w) * G + w * scale * g. Saturates: no scale makes it infinite.
 template <LaneScalar T>
 [[nodiscard]] vec3<T> blended(const Influence& influence, const raster::Fragment<T>& fragment, vec3<T> sum,
                               vec3<T> g) {
   T w = constant<T>(influence.opacity);
   if (influence.mask) w = w * sample<1>(*influence.mask, fragment)[0];
   const vec3<T> scaled = (w * constant<T>(influence.scale)) * g;
-  return influence.mix ? (T(value_t<T>(1)) - w) * sum + scaled : sum + scaled;
+  return saturated(influence.mix ? (T(value_t<T>(1)) - w) * sum + scaled : sum + scaled);
 }
 
 } // namespace surfgrad::engine
