@@ -78,7 +78,7 @@ Picture render(const scene::Scene& scene, const Options& options, const Report& 
       stage.surfaces(), projection, camera.near, width, height,
       [&](std::uint32_t s, std::uint32_t t, bool front) { return stage.culled(s, t, front); });
   std::optional<Shading> shading;
-  if (beauty) shading.emplace(scene.lights, scene.environment ? *scene.environment : built_in_sky());
+  if (beauty) shading.emplace(scene.lights, scene.environment.get());
   const Sampler sample{stage, visible, projection, options.aov, shading ? &*shading : nullptr};
 
   Picture picture{image::make_image(options.width, options.height, 3, image::Depth::float32)};

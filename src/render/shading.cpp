@@ -62,9 +62,11 @@ vec2<double> integrate_albedo(double cos_view) {
 
 } // namespace
 
-Shading::Shading(const stack::Lights& lights, const image::Image& panorama)
-    : environment_(panorama, roughness), to_sun_(normalize_or_zero(lights.sun.direction)),
-      sun_(lights.sun.strength), sky_(lights.sky) {
+Shading::Shading(const stack::Lights& lights, const image::Image* environment)
+    : environment_(environment != nullptr ? *environment : built_in_sky(), roughness), sky_(lights.sky) {
+  const stack::Sun sun = lights.sun.value_or(stack::Sun{});
+  to_sun_ = normalize_or_zero(sun.direction);
+  if (lights.sun || environment == nullptr) sun_ = sun.strength;
   for (std::size_t i = 0; i < albedo_.size(); ++i)
     albedo_[i] =
         integrate_albedo(std::max(static_cast<double>(i) / static_cast<double>(albedo_.size() - 1), 1e-3));

@@ -13,7 +13,9 @@ namespace surfgrad::render {
 /// texture, so that all one sees is the normal.
 class Shading {
  public:
-  Shading(const stack::Lights& lights, const image::Image& panorama);
+  /// environment  panorama of the surroundings, or null for the built-in sky. It replaces the default
+  ///              sun, too: a sun that the lights name shines all the same.
+  Shading(const stack::Lights& lights, const image::Image* environment);
 
   /// Linear radiance towards the viewer. normal and to_viewer are unit; a normal that faces away is
   /// treated as seen edge-on.

@@ -32,7 +32,8 @@ struct Sun {
 
 struct Lights {
   static constexpr std::string_view format_name = "lights";
-  Sun sun{};
+  /// Absent: the default sun, or none where an environment brings its own.
+  std::optional<Sun> sun{};
   double sky = 1; ///< >= 0: multiplies the sky's (or the environment's) radiance
   /// An image of the surroundings (latitude and longitude) instead of the built-in sky.
   std::optional<FileName> environment{};

@@ -66,8 +66,8 @@ inline std::string text_of(const Stack& stack) {
   out.point("position", camera.position);
   out.point("target", camera.target);
   const Lights& lights = stack.lights;
-  out.point("sun", lights.sun.direction);
-  out.line("strength {} sky {}", lights.sun.strength, lights.sky);
+  out.point("sun", lights.sun.value_or(Sun{}).direction);
+  out.line("strength {} sky {}", lights.sun.value_or(Sun{}).strength, lights.sky);
   if (lights.environment) out.line("environment {}", lights.environment->path.string());
   return out.text;
 }

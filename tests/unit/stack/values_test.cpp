@@ -32,10 +32,11 @@ TEST(StackValues, smallest_document_has_the_defaults) {
   EXPECT_EQ(stack.camera.fov_deg, 35);
   EXPECT_FALSE(stack.camera.position);
   EXPECT_FALSE(stack.camera.target);
-  EXPECT_EQ(stack.lights.sun.direction.x, 0.4);
-  EXPECT_EQ(stack.lights.sun.direction.y, 0.6);
-  EXPECT_EQ(stack.lights.sun.direction.z, 0.7);
-  EXPECT_EQ(stack.lights.sun.strength, 3);
+  EXPECT_FALSE(stack.lights.sun);
+  EXPECT_EQ(Sun{}.direction.x, 0.4);
+  EXPECT_EQ(Sun{}.direction.y, 0.6);
+  EXPECT_EQ(Sun{}.direction.z, 0.7);
+  EXPECT_EQ(Sun{}.strength, 3);
   EXPECT_EQ(stack.lights.sky, 1);
   EXPECT_FALSE(stack.lights.environment);
 }
