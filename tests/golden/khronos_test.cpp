@@ -22,6 +22,8 @@ struct KhronosTest {
   int balls;
 };
 
+void PrintTo(const KhronosTest& test, std::ostream* out) { *out << test.name; }
+
 class Khronos : public testing::TestWithParam<KhronosTest> {
  protected:
   void SetUp() override {
