@@ -11,8 +11,8 @@ template <class T>
 struct Composition {
   vec3<T> base_normal; ///< unit; negated on back faces in modes mirror and flip
   vec3<T> normal;      ///< the composed normal, unit
-  /// Surface gradient that leads from base_normal to normal in one step: the sum of a single pass,
-  /// the equivalent of several.
+  /// Surface gradient that leads from base_normal to normal in one step: the sum of a single pass (less
+  /// what interpolated tangents lend it along the normal), the equivalent of several.
   vec3<T> surfgrad;
   mask_t<T> degenerate; ///< a normal or a frame that a layer needed did not exist
 };

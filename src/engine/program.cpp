@@ -50,20 +50,12 @@ image::NormalChannels channels_of(stack::Channels channels) {
 /// Cosine and sine; exact for whole quarter turns, so that a map turned by 90 degrees stays on its
 /// texel grid.
 vec2<double> rotation_of(double degrees) {
-  const double turns = degrees / 90.0;
-  if (turns == std::floor(turns) && std::abs(turns) < 1e9) {
-    switch (((static_cast<long long>(turns) % 4) + 4) % 4) {
-    case 1:
-      return {0, 1};
-    case 2:
-      return {-1, 0};
-    case 3:
-      return {0, -1};
-    default:
-      return {1, 0};
-    }
-  }
-  const double radians = degrees * std::numbers::pi / 180.0;
+  const double turn = std::remainder(degrees, 360.0); // exact, within half a turn
+  if (turn == 0) return {1, 0};
+  if (turn == 90) return {0, 1};
+  if (turn == -90) return {0, -1};
+  if (std::abs(turn) == 180) return {-1, 0};
+  const double radians = turn * std::numbers::pi / 180.0;
   return {std::cos(radians), std::sin(radians)};
 }
 

@@ -10,6 +10,9 @@ namespace {
 
 /// Part of the half picture that the object may fill: leaves a margin.
 constexpr double filled = 0.94;
+/// Part of the object's size that lies at least between it and the eye: the least distance from which a
+/// wide view holds every vertex may put one of them into the eye.
+constexpr double clearance = 0.05;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -78,16 +81,18 @@ Pinhole place_camera(const scene::Scene& scene, int width, int height) {
   const double tan_x = tan_y * width / height;
   vec2<double> right_most{-infinity, -infinity}; // x: to the right, y: to the left
   vec2<double> up_most{-infinity, -infinity};    // x: upwards, y: downwards
+  double nearest = infinity;                     // depth
   for_each_vertex(scene, [&](vec3<double> p) {
     const vec3<double> q = p - centre;
     const double depth = dot(camera.forward, q);
     const double x = dot(camera.right, q);
     const double y = dot(camera.up, q);
     right_most = {std::max(right_most.x, x - tan_x * depth), std::max(right_most.y, -x - tan_x * depth)};
+    nearest = std::min(nearest, depth);
     up_most = {std::max(up_most.x, y - tan_y * depth), std::max(up_most.y, -y - tan_y * depth)};
   });
-  const double distance = std::max(
-      {(right_most.x + right_most.y) / (2 * tan_x), (up_most.x + up_most.y) / (2 * tan_y), 1e-3 * size});
+  const double distance = std::max({(right_most.x + right_most.y) / (2 * tan_x),
+                                    (up_most.x + up_most.y) / (2 * tan_y), clearance * size - nearest});
   camera.eye = centre - distance * camera.forward + (0.5 * (right_most.x - right_most.y)) * camera.right +
                (0.5 * (up_most.x - up_most.y)) * camera.up;
   camera.near = 1e-5 * distance;

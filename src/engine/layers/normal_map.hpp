@@ -14,13 +14,18 @@ struct NormalMap {
 };
 
 /// The vertex frame for a later pass: its tangent turned into the plane of the new base normal, its
-/// bitangent kept on its own side. In the first pass the frame is used as MikkTSpace defines it.
+/// bitangent kept on its own side; zero vectors where the tangent lies along the normal to rounding. In
+/// the first pass the frame is used as MikkTSpace defines it.
 template <Scalar T>
 [[nodiscard]] TangentFrame<T> rebased_basis(const Frame<T>& frame, const TangentFrame<T>& vertex) {
   const T one = T(value_t<T>(1));
-  const vec3<T> tangent = normalize_or_zero(from_volume_gradient(frame.normal, vertex.tangent));
+  const T zero = T(value_t<T>(0));
+  const vec3<T> along = from_volume_gradient(frame.normal, vertex.tangent);
+  // Removing the part along the normal leaves up to 4 eps of rounding, which points anywhere.
+  const T rounding = (T(value_t<T>(8)) * T(epsilon_v<T>)) * max_abs(vertex.tangent);
+  const vec3<T> tangent = select<T>(rounding < max_abs(along), normalize_or_zero(along), {zero, zero, zero});
   const vec3<T> bitangent = cross(frame.normal, tangent);
-  const T side = select(dot(bitangent, vertex.bitangent) < T(value_t<T>(0)), -one, one);
+  const T side = select(dot(bitangent, vertex.bitangent) < zero, -one, one);
   return {tangent, side * bitangent};
 }
 

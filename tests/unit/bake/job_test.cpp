@@ -1,0 +1,137 @@
+// The job around the bake: threads, progress, cancelling, what it refuses and what it counts.
+
+#include "bake/bake.hpp"
+
+#include "diagnostic/error.hpp"
+#include "support/images.hpp"
+#include "support/scenes.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <string>
+#include <vector>
+
+namespace surfgrad::bake {
+namespace {
+
+using surfgrad::test::Random;
+
+scene::Scene two_layers() {
+  Random random(211);
+  scene::Scene scene = surfgrad::test::scene_of(surfgrad::test::half_mirrored_torus(24, 12));
+  surfgrad::test::add_image(scene, "a", surfgrad::test::random_normal_map(random, 32, 32));
+  stack::NormalMapLayer derived = surfgrad::test::normal_layer("a");
+  derived.basis = stack::Basis::derived;
+  derived.map.tile = {3, -2};
+  scene.materials[0].layers = {surfgrad::test::normal_layer("a"), derived};
+  return scene;
+}
+
+TEST(BakeJob, GivesTheSameBytesForAnyNumberOfThreads) {
+  const scene::Scene scene = two_layers();
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return bake(scene, {100, 150, Space::tangent});
+  };
+  const Baked one = run(1);
+  for (const std::size_t threads : {2, 5}) {
+    const Baked many = run(threads);
+    EXPECT_EQ(one.map.texels, many.map.texels);
+    EXPECT_EQ(one.covered, many.covered);
+    EXPECT_EQ(one.clamped, many.clamped);
+  }
+}
+
+TEST(BakeJob, ReportsProgressUpToOneAndStopsWhenAsked) {
+  const scene::Scene scene = two_layers();
+  std::vector<double> parts;
+  Report report;
+  report.progress = [&](double part) {
+    parts.push_back(part);
+    return true;
+  };
+  (void)bake(scene, {16, 40, Space::tangent}, report);
+  ASSERT_FALSE(parts.empty());
+  EXPECT_EQ(parts.back(), 1);
+  report.progress = [](double) { return false; };
+  EXPECT_THROW((void)bake(scene, {16, 40, Space::tangent}, report), Cancelled);
+}
+
+TEST(BakeJob, RefusesAMeshWithoutTextureCoordinatesOrWithNoneInTheUnitSquare) {
+  scene::Scene scene = two_layers();
+  scene.materials[0].layers.clear();
+  for (vec2<float>& st : scene.meshes[0].uv_sets[0]) st = st + vec2<float>{5, 5};
+  EXPECT_THROW((void)bake(scene, {16, 16, Space::tangent}), InputError);
+  scene.meshes[0].uv_sets.clear();
+  try {
+    (void)bake(scene, {16, 16, Space::object});
+    FAIL() << "a mesh without texture coordinates";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("mesh \"object\""), std::string::npos) << error.what();
+  }
+}
+
+TEST(BakeJob, LeavesTexelsWithoutASurfaceFlatAndUncounted) {
+  scene::Scene scene = two_layers();
+  for (vec2<float>& st : scene.meshes[0].uv_sets[0]) st = 0.5f * st;
+  const Baked baked = bake(scene, {20, 20, Space::tangent});
+  EXPECT_EQ(baked.covered, 100);
+  EXPECT_EQ(baked.map.at(15, 15, 0), 0.5f);
+  EXPECT_EQ(baked.map.at(15, 15, 1), 0.5f);
+  EXPECT_EQ(baked.map.at(15, 15, 2), 1);
+}
+
+TEST(BakeJob, CountsVanishedNormalsAndTangents) {
+  scene::Scene scene = two_layers();
+  for (vec3<float>& n : scene.meshes[0].normals) n = {0, 0, 0};
+  const Baked bare = bake(scene, {20, 20, Space::tangent});
+  EXPECT_EQ(bare.singular, 400); // nothing can decode a map without normals
+  EXPECT_EQ(bare.degenerate, 400);
+  for (std::size_t i = 0; i < bare.map.texels.size(); i += 3) {
+    EXPECT_EQ(bare.map.texels[i], 0.5f);
+    EXPECT_EQ(bare.map.texels[i + 2], 1.0f);
+  }
+  scene = two_layers();
+  scene.meshes[0].tangent_spaces.resize(1);
+  scene.meshes[0].tangent_spaces[0].corners.assign(3 * scene.meshes[0].triangles.size(), {0, 0, 0, 1});
+  const Baked untwisted = bake(scene, {20, 20, Space::tangent});
+  EXPECT_EQ(untwisted.singular, 400);
+  EXPECT_EQ(untwisted.degenerate, 400);
+}
+
+TEST(BakeJob, CountsNormalsBelowTheSurface) {
+  // A world-space map that points down under half of a torus.
+  scene::Scene scene = surfgrad::test::scene_of(surfgrad::test::torus(24, 12));
+  Random random(212);
+  surfgrad::test::add_image(scene, "steep", surfgrad::test::random_normal_map(random, 64, 64, 20));
+  stack::NormalMapLayer layer = surfgrad::test::normal_layer("steep");
+  scene.materials[0].layers = {layer, stack::ResolveLayer{}, layer, stack::ResolveLayer{}, layer};
+  const Baked baked = bake(scene, {64, 64, Space::tangent});
+  EXPECT_GT(baked.clamped, 100);
+  for (std::size_t i = 2; i < baked.map.texels.size(); i += 3) EXPECT_GT(baked.map.texels[i], 0.5f);
+}
+
+TEST(BakeJob, ShowsTheFrontOfMirroredTextureCoordinatesAndOneSidedMaterials) {
+  scene::Scene scene = two_layers();
+  const Baked flip = bake(scene, {20, 20, Space::world});
+  for (const stack::BackFaces mode :
+       {stack::BackFaces::same, stack::BackFaces::mirror, stack::BackFaces::cull}) {
+    scene.materials[0].back_faces = mode;
+    EXPECT_EQ(bake(scene, {20, 20, Space::world}).map.texels, flip.map.texels);
+  }
+}
+
+TEST(BakeJob, WarnsAboutMapsThatPointIntoTheSurface) {
+  scene::Scene scene = two_layers();
+  surfgrad::test::add_image(scene, "a", surfgrad::test::constant_image(4, 4, {0.5, 0.6, 0.1}));
+  std::vector<std::string> warnings;
+  Report report;
+  report.warning = [&](std::string_view text) { warnings.emplace_back(text); };
+  (void)bake(scene, {8, 8, Space::tangent}, report);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].substr(0, 46), "a: 16 of 16 texels point into the surface (z <");
+}
+
+} // namespace
+} // namespace surfgrad::bake

@@ -1,0 +1,113 @@
+#pragma once
+
+/// Images, layers and fragments to try a program on, without files, meshes or rasters.
+
+#include "engine/compose.hpp"
+#include "support/images.hpp"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace surfgrad::engine::test {
+
+using surfgrad::test::Random;
+
+/// Compiles layers whose files are images in memory.
+class Lab {
+ public:
+  void add(const std::filesystem::path& name, image::Image image) { images_[name] = std::move(image); }
+
+  [[nodiscard]] Program compile(const std::vector<stack::Layer>& layers) const {
+    std::vector<raster::UvSlot> slots{{0, true}, {1, true}};
+    collect_uv_slots(layers, slots);
+    MapLibrary maps(
+        [this](const std::filesystem::path& file) -> const image::Image& { return images_.at(file); });
+    return engine::compile(layers, slots, maps);
+  }
+
+ private:
+  std::map<std::filesystem::path, image::Image> images_{};
+};
+
+inline stack::NormalMapLayer normal_layer(const char* map, int uv = 0,
+                                          stack::Basis basis = stack::Basis::mikktspace) {
+  stack::NormalMapLayer layer;
+  layer.map.file.path = map;
+  layer.map.uv = uv;
+  layer.basis = basis;
+  return layer;
+}
+
+inline stack::ObjectNormalMapLayer object_layer(const char* map, stack::Space space = stack::Space::object) {
+  stack::ObjectNormalMapLayer layer;
+  layer.map.file.path = map;
+  layer.space = space;
+  return layer;
+}
+
+inline stack::Mask mask_of(const char* map, stack::MaskChannel channel = stack::MaskChannel::r) {
+  stack::Mask mask;
+  mask.file.path = map;
+  mask.channel = channel;
+  return mask;
+}
+
+/// A fragment as a rasteriser would make it, at any place, turn and scale, with two UV sets. Tangents
+/// are perpendicular to the normal, as at a vertex.
+inline raster::Fragment<double> random_fragment(Random& random) {
+  raster::Fragment<double> f{};
+  f.position = random.vector3();
+  const mat3<double> r = random.rotation(); // rows: two directions in the surface, its normal
+  f.normal = random.uniform(0.5, 1) * normalize_or_zero(r.z + 0.2 * random.vector3());
+  const double pixel = random.magnitude(1e-3, 1e-1);
+  f.dp_dx = pixel * (r.x + 0.3 * random.uniform() * r.y);
+  f.dp_dy = pixel * (random.uniform(0.4, 1) * r.y + 0.3 * random.uniform() * r.x);
+  f.front_facing = true;
+  for (std::size_t s = 0; s < 2; ++s) {
+    raster::UvFragment<double>& uv = f.uvs[s];
+    uv.st = random.vector2(-1, 2);
+    uv.dst_dx = {0.02 * random.uniform(0.3, 1), 0.02 * random.uniform(-0.2, 0.2)};
+    uv.dst_dy = {0.02 * random.uniform(-0.2, 0.2), 0.02 * random.sign() * random.uniform(0.3, 1)};
+    uv.tangent = random.uniform(0.5, 1) * normalize_or_zero(cross(f.normal, random.vector3()));
+    uv.sign = random.sign();
+  }
+  return f;
+}
+
+/// The same as between vertices, where interpolated tangents lean towards the normal.
+inline raster::Fragment<double> leaning_fragment(Random& random) {
+  raster::Fragment<double> f = random_fragment(random);
+  for (raster::UvFragment<double>& uv : f.uvs) uv.tangent = uv.tangent + random.uniform(-0.1, 0.1) * f.normal;
+  return f;
+}
+
+inline constexpr mat3<double> identity{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+inline Composition<double> composed(const Program& program, const raster::Fragment<double>& fragment,
+                                    BackFaces back_faces = BackFaces::same,
+                                    const mat3<double>& world_from_object = identity) {
+  return compose(program, fragment, back_faces, world_from_object);
+}
+
+/// One layer of every kind, each with a map of its own; "mask" weighs the second.
+inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
+  using surfgrad::test::random_normal_map;
+  lab.add("a", random_normal_map(random, 16, 16, 0.5));
+  lab.add("b", random_normal_map(random, 8, 16, 0.5));
+  lab.add("c", surfgrad::test::random_image(random, 16, 8, 3));
+  lab.add("d", random_normal_map(random, 16, 16, 0.5));
+  lab.add("mask", surfgrad::test::random_image(random, 8, 8, 4));
+  stack::NormalMapLayer b = normal_layer("b", 1, stack::Basis::derived);
+  b.common.scale = -0.7;
+  b.common.mask = mask_of("mask", stack::MaskChannel::g);
+  b.map.rotate_deg = 20;
+  stack::ObjectNormalMapLayer c = object_layer("c");
+  c.common.opacity = 0.2;
+  stack::ObjectNormalMapLayer d = object_layer("d", stack::Space::world);
+  d.common.scale = 0.1;
+  return {normal_layer("a"), b, c, d};
+}
+
+} // namespace surfgrad::engine::test

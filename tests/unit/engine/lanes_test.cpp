@@ -1,0 +1,104 @@
+// A pack of fragments composes as each of its lanes would alone, bit for bit.
+
+#include "lab.hpp"
+#include "simd/emulated_lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+namespace surfgrad::engine {
+namespace {
+
+using simd::emulated_width;
+using simd::EmulatedFloat;
+
+vec3<float> narrow(vec3<double> v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+vec2<float> narrow(vec2<double> v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
+
+raster::Fragment<float> narrow(const raster::Fragment<double>& f) {
+  raster::Fragment<float> r{};
+  r.position = narrow(f.position);
+  r.normal = narrow(f.normal);
+  r.normal_is_absent = f.normal_is_absent;
+  r.dp_dx = narrow(f.dp_dx);
+  r.dp_dy = narrow(f.dp_dy);
+  r.front_facing = f.front_facing;
+  for (std::size_t s = 0; s < 2; ++s)
+    r.uvs[s] = {narrow(f.uvs[s].st), narrow(f.uvs[s].dst_dx), narrow(f.uvs[s].dst_dy),
+                narrow(f.uvs[s].tangent), static_cast<float>(f.uvs[s].sign)};
+  return r;
+}
+
+void put(vec3<EmulatedFloat>& pack, int lane, vec3<float> v) {
+  pack.x.lane[lane] = v.x;
+  pack.y.lane[lane] = v.y;
+  pack.z.lane[lane] = v.z;
+}
+void put(vec2<EmulatedFloat>& pack, int lane, vec2<float> v) {
+  pack.x.lane[lane] = v.x;
+  pack.y.lane[lane] = v.y;
+}
+
+void put(raster::Fragment<EmulatedFloat>& pack, int lane, const raster::Fragment<float>& f) {
+  put(pack.position, lane, f.position);
+  put(pack.normal, lane, f.normal);
+  pack.normal_is_absent.lane[lane] = f.normal_is_absent;
+  put(pack.dp_dx, lane, f.dp_dx);
+  put(pack.dp_dy, lane, f.dp_dy);
+  pack.front_facing.lane[lane] = f.front_facing;
+  for (std::size_t s = 0; s < 2; ++s) {
+    put(pack.uvs[s].st, lane, f.uvs[s].st);
+    put(pack.uvs[s].dst_dx, lane, f.uvs[s].dst_dx);
+    put(pack.uvs[s].dst_dy, lane, f.uvs[s].dst_dy);
+    put(pack.uvs[s].tangent, lane, f.uvs[s].tangent);
+    pack.uvs[s].sign.lane[lane] = f.uvs[s].sign;
+  }
+}
+
+void expect_same_bits(float a, float b) {
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b));
+}
+
+TEST(ComposeLanes, EqualOneLaneInEveryBackFaceMode) {
+  constexpr std::uint64_t seed = 161;
+  SCOPED_TRACE(seed);
+  test::Random random(seed);
+  test::Lab lab;
+  std::vector<stack::Layer> layers = test::one_of_each(lab, random);
+  layers.insert(layers.begin() + 2, stack::ResolveLayer{});
+  const Program program = lab.compile(layers);
+  const mat3<float> linear{{0, -2, 0}, {1, 0, 0}, {0, 0, -1}};
+  const auto wide = [](vec3<float> v) {
+    return vec3<EmulatedFloat>{EmulatedFloat(v.x), EmulatedFloat(v.y), EmulatedFloat(v.z)};
+  };
+  const mat3<EmulatedFloat> linear_pack{wide(linear.x), wide(linear.y), wide(linear.z)};
+  for (const BackFaces mode : {BackFaces::same, BackFaces::mirror, BackFaces::flip})
+    for (int k = 0; k < 100; ++k) {
+      raster::Fragment<EmulatedFloat> pack{};
+      std::array<raster::Fragment<float>, emulated_width> one{};
+      for (int i = 0; i < emulated_width; ++i) {
+        auto f = test::random_fragment(random);
+        f.front_facing = random.integer(2) == 0;
+        if (random.integer(8) == 0) f.uvs[0].tangent = {0, 0, 0};
+        if (random.integer(8) == 0) f.uvs[1].dst_dx = {0, 0};
+        if (random.integer(8) == 0) f.normal_is_absent = true;
+        one[static_cast<std::size_t>(i)] = narrow(f);
+        put(pack, i, one[static_cast<std::size_t>(i)]);
+      }
+      const auto got = compose(program, pack, mode, linear_pack);
+      for (int i = 0; i < emulated_width; ++i) {
+        const auto expected = compose(program, one[static_cast<std::size_t>(i)], mode, linear);
+        expect_same_bits(got.normal.x.lane[i], expected.normal.x);
+        expect_same_bits(got.normal.y.lane[i], expected.normal.y);
+        expect_same_bits(got.normal.z.lane[i], expected.normal.z);
+        expect_same_bits(got.surfgrad.x.lane[i], expected.surfgrad.x);
+        EXPECT_EQ(got.degenerate.lane[i], expected.degenerate);
+      }
+    }
+}
+
+} // namespace
+} // namespace surfgrad::engine
