@@ -127,7 +127,7 @@ void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raste
         layer);
 }
 
-std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::Map& use) {
+std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::TangentMap& use) {
   const bool green_up = use.green == stack::Green::up;
   auto& map = maps_["slopes " + std::to_string(static_cast<int>(use.channels)) +
                     (green_up ? " up " : " down ") + use.file.path.string()];

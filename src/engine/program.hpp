@@ -34,7 +34,7 @@ class MapLibrary {
       : find_(std::move(find)) {}
 
   /// These throw InputError where the image has too few channels.
-  std::shared_ptr<const image::Map> slopes(const stack::Map& use);
+  std::shared_ptr<const image::Map> slopes(const stack::TangentMap& use);
   std::shared_ptr<const image::Map> directions(const stack::Map& use);
   std::shared_ptr<const image::Map> channel(const stack::Mask& use);
 

@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <vector>
+#include <span>
 
 namespace surfgrad::io {
 
 /// The model in the bytes of a .gltf or .glb file; `file` serves messages and finds the files that
 /// its URIs name. See read_model.
-[[nodiscard]] Model read_gltf(const std::filesystem::path& file, std::vector<std::byte> bytes);
+[[nodiscard]] Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 } // namespace surfgrad::io

@@ -7,51 +7,22 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <string>
+#include <span>
 #include <string_view>
 
 namespace surfgrad::io::gltf {
 namespace {
 
-/// The format's numbers for component types.
-enum class Component : std::size_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
-
 // No byte of the file stands behind the zeros of an accessor without a bufferView, so only this
 // bounds them: more vertices than any mesh that is edited by hand, 256 MB as vec4.
 constexpr std::size_t most_unbacked_elements = std::size_t{1} << 24;
 
-struct AttributeFormat {
-  std::string_view type;
-  std::size_t components;
-};
-
-AttributeFormat format_of(Attribute attribute) {
-  switch (attribute) {
-  case Attribute::position:
-  case Attribute::normal:
-    return {"VEC3", 3};
-  case Attribute::tangent:
-    return {"VEC4", 4};
-  case Attribute::texcoord:
-    break;
-  }
-  return {"VEC2", 2};
-}
-
-std::size_t size_of(Component component) {
-  switch (component) {
-  case Component::i8:
-  case Component::u8:
-    return 1;
-  case Component::i16:
-  case Component::u16:
-    return 2;
-  case Component::u32:
-  case Component::f32:
-    break;
-  }
-  return 4;
-}
+constexpr int i8 = TINYGLTF_COMPONENT_TYPE_BYTE;
+constexpr int u8 = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+constexpr int i16 = TINYGLTF_COMPONENT_TYPE_SHORT;
+constexpr int u16 = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+constexpr int u32 = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+constexpr int f32 = TINYGLTF_COMPONENT_TYPE_FLOAT;
 
 template <class T>
 T load(const std::byte* bytes) {
@@ -60,37 +31,29 @@ T load(const std::byte* bytes) {
   return value;
 }
 
-/// One component as a float: integers as they are, or scaled to [0, 1] or [-1, 1].
-float load_float(const std::byte* bytes, Component component, bool normalized) {
-  switch (component) {
-  case Component::i8: {
-    const auto value = static_cast<float>(load<std::int8_t>(bytes));
-    return normalized ? std::max(value / 127.0f, -1.0f) : value;
-  }
-  case Component::u8: {
-    const auto value = static_cast<float>(load<std::uint8_t>(bytes));
-    return normalized ? value / 255.0f : value;
-  }
-  case Component::i16: {
-    const auto value = static_cast<float>(load<std::int16_t>(bytes));
-    return normalized ? std::max(value / 32767.0f, -1.0f) : value;
-  }
-  case Component::u16: {
-    const auto value = static_cast<float>(load<std::uint16_t>(bytes));
-    return normalized ? value / 65535.0f : value;
-  }
-  case Component::u32:
-    return static_cast<float>(load<std::uint32_t>(bytes));
-  case Component::f32:
-    break;
-  }
+/// An integer as it is, or scaled to [0, 1] or [-1, 1].
+template <class T>
+float load_scaled(const std::byte* bytes, bool normalized) {
+  const auto value = static_cast<float>(load<T>(bytes));
+  return normalized ? std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0f) : value;
+}
+
+float load_float(const std::byte* bytes, int component, bool normalized) {
+  if (component == i8) return load_scaled<std::int8_t>(bytes, normalized);
+  if (component == u8) return load_scaled<std::uint8_t>(bytes, normalized);
+  if (component == i16) return load_scaled<std::int16_t>(bytes, normalized);
+  if (component == u16) return load_scaled<std::uint16_t>(bytes, normalized);
   return load<float>(bytes);
 }
 
-std::uint32_t load_index(const std::byte* bytes, Component component) {
-  if (component == Component::u8) return load<std::uint8_t>(bytes);
-  if (component == Component::u16) return load<std::uint16_t>(bytes);
+std::uint32_t load_index(const std::byte* bytes, int component) {
+  if (component == u8) return load<std::uint8_t>(bytes);
+  if (component == u16) return load<std::uint16_t>(bytes);
   return load<std::uint32_t>(bytes);
+}
+
+std::size_t size_of(int component) {
+  return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component)));
 }
 
 /// Elements in a bufferView, all within it.
@@ -99,53 +62,50 @@ struct Elements {
   std::size_t stride = 0;
 };
 
-/// `count` elements of `element_size` bytes at the bufferView and byteOffset that `holder` names.
-Elements elements_of(const Element& holder, std::size_t count, std::size_t element_size, Buffers& buffers) {
-  const BufferView view = buffers.view(holder.at("bufferView"));
-  const std::size_t offset = holder.whole_or("byteOffset", 0);
-  const std::size_t stride = view.stride == 0 ? element_size : view.stride;
+/// `count` elements of `element_size` bytes that the object at `place` describes.
+Elements elements_of(const Document& document, int view_index, std::size_t offset, std::size_t count,
+                     std::size_t element_size, const std::string& place) {
+  const std::span<const std::byte> bytes = document.bytes_of_view(view_index);
+  const std::size_t given = document.model.bufferViews[static_cast<std::size_t>(view_index)].byteStride;
+  const std::size_t stride = given == 0 ? element_size : given;
   if (stride < element_size)
-    holder.fail(fmt::format("byteStride {} is less than the element's {} bytes", stride, element_size),
-                "expected elements that do not overlap");
-  const std::size_t size = view.bytes.size();
+    document.fail(place,
+                  fmt::format("byteStride {} is less than the element's {} bytes", stride, element_size),
+                  "expected elements that do not overlap");
   // Ordered so that no sum or product can overflow.
-  const bool fits = count > 0 && offset <= size && element_size <= size - offset &&
-                    count - 1 <= (size - offset - element_size) / stride;
+  const bool fits = count > 0 && offset <= bytes.size() && element_size <= bytes.size() - offset &&
+                    count - 1 <= (bytes.size() - offset - element_size) / stride;
   if (!fits)
-    holder.fail(fmt::format("{} elements of {} bytes from byte {} do not fit a bufferView of {} bytes", count,
-                            element_size, offset, size),
-                "expected elements within the bufferView");
-  return {view.bytes.data() + offset, stride};
+    document.fail(place,
+                  fmt::format("{} elements of {} bytes from byte {} do not fit a bufferView of {} bytes",
+                              count, element_size, offset, bytes.size()),
+                  "expected elements within the bufferView");
+  return {bytes.data() + offset, stride};
 }
 
-Component component_of(const Element& holder, std::string_view expected) {
-  const Element type = holder.at("componentType");
-  switch (const auto component = static_cast<Component>(type.whole())) {
-  case Component::i8:
-  case Component::u8:
-  case Component::i16:
-  case Component::u16:
-  case Component::u32:
-  case Component::f32:
-    return component;
-  }
-  type.fail(fmt::format("is {}", type.whole()), fmt::format("expected {}", expected));
+void require_index_component(const Document& document, int component, const std::string& place) {
+  if (component != u8 && component != u16 && component != u32)
+    document.fail(place + ".componentType", fmt::format("is {}", component),
+                  "expected 5121, 5123 or 5125 (unsigned integers)");
 }
 
-Component index_component(const Element& holder) {
-  constexpr std::string_view expected = "5121, 5123 or 5125 (unsigned integers)";
-  const Component component = component_of(holder, expected);
-  if (component != Component::u8 && component != Component::u16 && component != Component::u32)
-    holder.at("componentType")
-        .fail(fmt::format("is {}", static_cast<std::size_t>(component)),
-              fmt::format("expected {}", expected));
-  return component;
+std::string name_of(int type) {
+  if (type == TINYGLTF_TYPE_SCALAR) return "SCALAR";
+  constexpr int matrix_bit = TINYGLTF_TYPE_MAT2 - TINYGLTF_TYPE_VEC2;
+  return fmt::format("{}{}", (type & matrix_bit) != 0 ? "MAT" : "VEC", type & ~matrix_bit);
 }
 
-bool is_permitted(Attribute attribute, Component component, bool normalized, bool quantized) {
-  const bool is_unsigned = component == Component::u8 || component == Component::u16;
-  const bool is_signed = component == Component::i8 || component == Component::i16;
-  if (component == Component::f32) return !normalized;
+void require_type(const Document& document, const tinygltf::Accessor& accessor, int type,
+                  const std::string& place) {
+  if (accessor.type != type)
+    document.fail(place + ".type", fmt::format("is \"{}\"", name_of(accessor.type)),
+                  fmt::format("expected \"{}\"", name_of(type)));
+}
+
+bool is_permitted(Attribute attribute, int component, bool normalized, bool quantized) {
+  const bool is_unsigned = component == u8 || component == u16;
+  const bool is_signed = component == i8 || component == i16;
+  if (component == f32) return !normalized;
   if (attribute == Attribute::texcoord && is_unsigned && normalized) return true;
   if (!quantized) return false;
   if (attribute == Attribute::position || attribute == Attribute::texcoord) return is_unsigned || is_signed;
@@ -160,104 +120,101 @@ std::string_view permitted_text(Attribute attribute, bool quantized) {
   return "5126 (float)";
 }
 
-void require_type(const Element& accessor, std::string_view expected) {
-  const Element type = accessor.at("type");
-  if (type.text() != expected)
-    type.fail(fmt::format("is \"{}\"", type.text()), fmt::format("expected \"{}\"", expected));
-}
+/// All components of an accessor in order, each made by `load(bytes, component type)`; zeros where
+/// neither a bufferView nor sparse values give one.
+template <class T, class Load>
+std::vector<T> components_of(const Document& document, const tinygltf::Accessor& accessor,
+                             const std::string& place, const Load& load_component) {
+  const auto components =
+      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+  const std::size_t component_size = size_of(accessor.componentType);
+  const std::size_t element_size = component_size * components;
+  std::optional<Elements> elements;
+  if (accessor.bufferView >= 0)
+    elements =
+        elements_of(document, accessor.bufferView, accessor.byteOffset, accessor.count, element_size, place);
+  else if (!accessor.sparse.isSparse)
+    document.fail(place, "has no bufferView and no sparse values", "expected data that is not compressed");
+  else if (accessor.count > most_unbacked_elements)
+    document.fail(place, fmt::format("has {} elements and no bufferView", accessor.count),
+                  fmt::format("expected a bufferView, or at most {} elements", most_unbacked_elements));
 
-/// Number of elements: at least one, and few enough for 32-bit vertex indices.
-std::size_t count_of(const Element& accessor) {
-  const Element count = accessor.at("count");
-  if (count.whole() == 0 || count.whole() > std::numeric_limits<std::uint32_t>::max())
-    count.fail(fmt::format("is {}", count.whole()), "expected 1 to 4294967295");
-  return count.whole();
-}
+  std::vector<T> values(accessor.count * components, T{});
+  const auto store = [&](std::size_t element, const std::byte* bytes) {
+    for (std::size_t c = 0; c < components; ++c)
+      values[element * components + c] = load_component(bytes + c * component_size, accessor.componentType);
+  };
+  if (elements)
+    for (std::size_t i = 0; i < accessor.count; ++i) store(i, elements->first + i * elements->stride);
+  if (!accessor.sparse.isSparse) return values;
 
-/// Calls `store(element, bytes)` for the elements that a sparse accessor replaces.
-template <class Store>
-void for_each_sparse(const Element& accessor, std::size_t count, std::size_t element_size, Buffers& buffers,
-                     const Store& store) {
-  const auto sparse = accessor.find("sparse");
-  if (!sparse) return;
-  const std::size_t replaced = sparse->at("count").whole();
-  const Element indices = sparse->at("indices");
-  const Component component = index_component(indices);
-  const Elements targets = elements_of(indices, replaced, size_of(component), buffers);
-  const Elements values = elements_of(sparse->at("values"), replaced, element_size, buffers);
+  const auto& indices = accessor.sparse.indices;
+  const auto& replacements = accessor.sparse.values;
+  const auto replaced = static_cast<std::size_t>(accessor.sparse.count);
+  const std::string indices_place = place + ".sparse.indices";
+  require_index_component(document, indices.componentType, indices_place);
+  const Elements targets =
+      elements_of(document, indices.bufferView, static_cast<std::size_t>(indices.byteOffset), replaced,
+                  size_of(indices.componentType), indices_place);
+  const Elements sources =
+      elements_of(document, replacements.bufferView, static_cast<std::size_t>(replacements.byteOffset),
+                  replaced, element_size, place + ".sparse.values");
   for (std::size_t i = 0; i < replaced; ++i) {
-    const std::uint32_t target = load_index(targets.first + i * targets.stride, component);
-    if (target >= count)
-      indices.fail(fmt::format("entry {} is {} but the accessor has {} elements", i, target, count),
-                   "expected indices of its elements");
-    store(target, values.first + i * values.stride);
+    const std::uint32_t target = load_index(targets.first + i * targets.stride, indices.componentType);
+    if (target >= accessor.count)
+      document.fail(indices_place,
+                    fmt::format("entry {} is {} but the accessor has {} elements", i, target, accessor.count),
+                    "expected indices of its elements");
+    store(target, sources.first + i * sources.stride);
   }
+  return values;
 }
 
 } // namespace
 
-std::size_t component_count(Attribute attribute) { return format_of(attribute).components; }
+std::size_t component_count(Attribute attribute) {
+  if (attribute == Attribute::texcoord) return 2;
+  return attribute == Attribute::tangent ? 4 : 3;
+}
 
-std::vector<float> read_attribute(const Element& reference, Attribute attribute, Buffers& buffers) {
-  const Element accessor = reference.entry_of("accessors");
+std::vector<float> read_attribute(const Document& document, int index, Attribute attribute,
+                                  const std::string& place) {
+  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
+  const std::string accessor_place = fmt::format("accessors[{}]", index);
   const std::size_t components = component_count(attribute);
-  require_type(accessor, format_of(attribute).type);
-  const bool quantized = reference.document().uses("KHR_mesh_quantization");
-  const bool normalized = accessor.boolean_or("normalized", false);
-  const Component component = component_of(accessor, permitted_text(attribute, quantized));
-  if (!is_permitted(attribute, component, normalized, quantized))
-    accessor.at("componentType")
-        .fail(fmt::format("is {}{}", static_cast<std::size_t>(component), normalized ? " normalized" : ""),
-              fmt::format("expected {}", permitted_text(attribute, quantized)));
-
-  const std::size_t count = count_of(accessor);
-  const std::size_t component_size = size_of(component);
-  const std::size_t element_size = component_size * components;
-  std::optional<Elements> elements;
-  if (accessor.find("bufferView"))
-    elements = elements_of(accessor, count, element_size, buffers);
-  else if (!accessor.find("sparse"))
-    accessor.fail("has no bufferView and no sparse values", "expected data that is not compressed");
-  else if (count > most_unbacked_elements)
-    accessor.fail(fmt::format("has {} elements and no bufferView", count),
-                  fmt::format("expected a bufferView, or at most {} elements", most_unbacked_elements));
-
-  std::vector<float> values(count * components, 0.0f);
-  const auto store = [&](std::size_t element, const std::byte* bytes) {
-    for (std::size_t c = 0; c < components; ++c)
-      values[element * components + c] = load_float(bytes + c * component_size, component, normalized);
-  };
-  if (elements)
-    for (std::size_t i = 0; i < count; ++i) store(i, elements->first + i * elements->stride);
-  for_each_sparse(accessor, count, element_size, buffers, store);
-
+  require_type(document, accessor, static_cast<int>(components), accessor_place); // VECn is the number n
+  const bool quantized = document.uses("KHR_mesh_quantization");
+  if (!is_permitted(attribute, accessor.componentType, accessor.normalized, quantized))
+    document.fail(accessor_place + ".componentType",
+                  fmt::format("is {}{}", accessor.componentType, accessor.normalized ? " normalized" : ""),
+                  fmt::format("expected {}", permitted_text(attribute, quantized)));
+  std::vector<float> values =
+      components_of<float>(document, accessor, accessor_place, [&](const std::byte* bytes, int component) {
+        return load_float(bytes, component, accessor.normalized);
+      });
   const auto bad = std::ranges::find_if_not(values, [](float value) { return std::isfinite(value); });
   if (bad != values.end())
-    reference.fail(
+    document.fail(
+        place,
         fmt::format("vertex {} is {}", static_cast<std::size_t>(bad - values.begin()) / components, *bad),
         "expected finite numbers");
   return values;
 }
 
-std::vector<std::uint32_t> read_indices(const Element& reference, std::size_t vertex_count,
-                                        Buffers& buffers) {
-  const Element accessor = reference.entry_of("accessors");
-  require_type(accessor, "SCALAR");
-  const Component component = index_component(accessor);
-  const std::size_t count = count_of(accessor);
-  const Elements elements = elements_of(accessor, count, size_of(component), buffers);
-  std::vector<std::uint32_t> indices(count);
-  const auto store = [&](std::size_t element, const std::byte* bytes) {
-    indices[element] = load_index(bytes, component);
-  };
-  for (std::size_t i = 0; i < count; ++i) store(i, elements.first + i * elements.stride);
-  for_each_sparse(accessor, count, size_of(component), buffers, store);
-
-  for (std::size_t i = 0; i < count; ++i)
-    if (indices[i] >= vertex_count)
-      reference.fail(
-          fmt::format("index {} is {} but the primitive has {} vertices", i, indices[i], vertex_count),
-          "expected indices of its vertices");
+std::vector<std::uint32_t> read_indices(const Document& document, int index, std::size_t vertex_count,
+                                        const std::string& place) {
+  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
+  const std::string accessor_place = fmt::format("accessors[{}]", index);
+  require_type(document, accessor, TINYGLTF_TYPE_SCALAR, accessor_place);
+  require_index_component(document, accessor.componentType, accessor_place);
+  std::vector<std::uint32_t> indices =
+      components_of<std::uint32_t>(document, accessor, accessor_place, load_index);
+  const auto bad = std::ranges::find_if(indices, [&](std::uint32_t i) { return i >= vertex_count; });
+  if (bad != indices.end())
+    document.fail(place,
+                  fmt::format("index {} is {} but the primitive has {} vertices", bad - indices.begin(), *bad,
+                              vertex_count),
+                  "expected indices of its vertices");
   return indices;
 }
 

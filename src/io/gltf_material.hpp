@@ -1,6 +1,5 @@
 #pragma once
 
-#include "io/gltf_buffer.hpp"
 #include "io/gltf_document.hpp"
 #include "io/model.hpp"
 
@@ -9,6 +8,6 @@
 namespace surfgrad::io::gltf {
 
 /// All materials of the document in its order, with the images that their normal textures use.
-[[nodiscard]] std::vector<ModelMaterial> read_materials(const Document& document, Buffers& buffers);
+[[nodiscard]] std::vector<ModelMaterial> read_materials(const Document& document);
 
 } // namespace surfgrad::io::gltf

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "image/image.hpp"
+#include "image/sampler.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 #include <surfgrad/vec.hpp>
@@ -14,9 +15,6 @@
 
 namespace surfgrad::io {
 
-/// What a texture shows outside [0, 1].
-enum class WrapMode { repeat, mirror, clamp };
-
 /// A normal map as a model's material uses it, in our conventions: texture origin lower left, t up.
 /// The map is read at st' = R(rotate_rad) * (tile * st) + offset, R turning counter-clockwise.
 struct ModelTexture {
@@ -28,13 +26,13 @@ struct ModelTexture {
   vec2<double> tile{1.0, 1.0};
   double rotate_rad = 0.0;
   vec2<double> offset{0.0, 0.0};
-  WrapMode wrap_s = WrapMode::repeat;
-  WrapMode wrap_t = WrapMode::repeat;
+  image::Wrap wrap_s = image::Wrap::repeat;
+  image::Wrap wrap_t = image::Wrap::repeat;
 };
 
 struct ModelMaterial {
   std::string name{}; ///< never empty: `material_3` where the file names none, `default` where it has none
-  bool double_sided = false;
+  bool double_sided = false; ///< OBJ knows no sides: always true there
   std::optional<ModelTexture> normal{};
 };
 

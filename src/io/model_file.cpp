@@ -10,7 +10,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace surfgrad::io {
@@ -33,10 +32,10 @@ Model read_model(const std::filesystem::path& file) {
                       .problem = extension.empty() ? "has no extension"
                                                    : "\"" + extension + "\" is not a model's extension",
                       .remedy = "expected .gltf, .glb or .obj"}};
-  std::vector<std::byte> bytes = read_file(file);
+  const std::vector<std::byte> bytes = read_file(file);
   if (bytes.empty()) throw InputError{{.file = file, .problem = "is empty", .remedy = "expected a model"}};
   if (extension == ".obj") return read_obj(file, bytes);
-  return read_gltf(file, std::move(bytes));
+  return read_gltf(file, bytes);
 }
 
 } // namespace surfgrad::io

@@ -19,8 +19,8 @@ namespace surfgrad::io {
 /// OBJ   One mesh, one object. Polygons become fans around their first corner; corners are welded by
 ///       (v, vt, vn). Corners without vn get angle-weighted smooth normals over the positions. A UV
 ///       set exists as soon as one face has vt; corners without vt are then at (0, 0), where no
-///       texture tilts the surface. Materials are the names of usemtl, one-sided; .mtl files are not
-///       read.
+///       texture tilts the surface. Materials are the names of usemtl, visible from both sides, for the
+///       format knows none; .mtl files are not read.
 ///
 /// errors  InputError names the file, the accessor or line, and what would be right.
 [[nodiscard]] Model read_model(const std::filesystem::path& file);

@@ -4,15 +4,17 @@
 #include "mesh/normals.hpp"
 
 #include <fmt/format.h>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -22,8 +24,8 @@
 namespace surfgrad::io {
 namespace {
 
-// Vertex numbers must fit 32 bits.
-constexpr std::size_t most_corners = std::numeric_limits<std::uint32_t>::max();
+// tinyobjloader numbers corners in an int.
+constexpr std::size_t most_corners = std::numeric_limits<int>::max();
 
 // Quoted text in a message: enough to recognise it.
 constexpr std::size_t longest_quote = 60;
@@ -32,16 +34,16 @@ constexpr std::string_view blanks = " \t\r\v\f";
 
 /// Indices into the position, texture coordinate and normal lists; -1 where a face has none.
 struct Corner {
-  std::int64_t position = -1;
-  std::int64_t uv = -1;
-  std::int64_t normal = -1;
+  int position = -1;
+  int uv = -1;
+  int normal = -1;
   friend bool operator==(const Corner&, const Corner&) = default;
 };
 
 struct CornerHash {
   std::size_t operator()(const Corner& corner) const {
     std::uint64_t hash = 0;
-    for (const std::int64_t index : {corner.position, corner.uv, corner.normal}) {
+    for (const int index : {corner.position, corner.uv, corner.normal}) {
       // Multiplicative hashing; the shift brings the well mixed upper bits down.
       hash = (hash ^ static_cast<std::uint64_t>(index)) * 0x9E3779B97F4A7C15u;
       hash ^= hash >> 32;
@@ -51,7 +53,6 @@ struct CornerHash {
 };
 
 struct Face {
-  std::int64_t line = 0;
   std::size_t first_corner = 0;
   std::size_t corner_count = 0;
   std::uint32_t material = 0;
@@ -67,17 +68,8 @@ struct Records {
   std::vector<std::string> materials{}; ///< in the order of first use
 };
 
-/// Takes the next blank-separated word off the front; empty at the end or at a comment.
-std::string_view next_word(std::string_view& text) {
-  const auto begin = text.find_first_not_of(blanks);
-  if (begin == text.npos || text[begin] == '#') {
-    text = {};
-    return {};
-  }
-  text.remove_prefix(begin);
-  const std::string_view word = text.substr(0, text.find_first_of(blanks));
-  text.remove_prefix(word.size());
-  return word;
+std::string quoted(std::string_view word) {
+  return fmt::format("\"{}{}\"", word.substr(0, longest_quote), word.size() > longest_quote ? "..." : "");
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -86,35 +78,66 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-class Parser {
- public:
-  explicit Parser(const std::filesystem::path& file) : file_(&file) {}
+/// Takes the next blank-separated word off the front; empty at the end or at a comment.
+std::string_view next_word(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  if (text.starts_with('#')) text = {};
+  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  text.remove_prefix(word.size());
+  return word;
+}
 
-  Records parse(std::string_view text) {
-    std::string joined;
-    while (!text.empty()) {
-      const std::size_t end = text.find('\n');
-      std::string_view line = text.substr(0, end);
-      text.remove_prefix(end == text.npos ? text.size() : end + 1);
-      ++line_;
-      // A backslash at the end continues the statement on the next line.
-      const std::string_view content = trimmed(line);
-      if (content.ends_with('\\')) {
-        joined.append(content.substr(0, content.size() - 1)).append(" ");
-        continue;
-      }
-      if (!joined.empty()) {
-        joined.append(line);
-        line = joined;
-      }
-      parse_statement(line);
-      joined.clear();
-    }
-    if (!joined.empty()) parse_statement(joined);
-    if (records_.faces.empty()) {
-      line_ = 0;
-      fail("has no faces", "expected at least one line such as: f 1 2 3");
-    }
+/// Whether all of the word is a number of this type.
+template <class Number>
+bool read_number(std::string_view word, Number& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && end == word.data() + word.size();
+}
+
+/// Whether the word is v, v/vt, v//vn or v/vt/vn.
+bool is_corner(std::string_view word) {
+  for (int part = 0; part < 3; ++part) {
+    const auto slash = word.find('/');
+    const std::string_view digits = word.substr(0, slash);
+    int index = 0;
+    const bool is_index = read_number(digits, index) && index != 0;
+    if (!is_index && (part == 0 || !digits.empty())) return false;
+    if (slash == word.npos) return true;
+    word.remove_prefix(slash + 1);
+  }
+  return false;
+}
+
+/// tinyobjloader takes what is not a number for 0, overlooks what follows a number, wraps large
+/// indices, and knows neither comments behind a face nor lines that go on after a backslash. So
+/// each statement that is read here is checked first and handed on in a plain form. Whether what
+/// a face names exists shows in the end, for it may come later.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(&file) {}
+
+  Records read(std::string_view text) {
+    check_statements(text);
+    line_ = 0;
+    if (face_lines_.empty()) fail("has no faces", "expected at least one line such as: f 1 2 3");
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = [](void* reader, float x, float y, float z, float) {
+      static_cast<Reader*>(reader)->records_.positions.push_back({x, y, z});
+    };
+    callbacks.normal_cb = [](void* reader, float x, float y, float z) {
+      static_cast<Reader*>(reader)->records_.normals.push_back({x, y, z});
+    };
+    callbacks.texcoord_cb = [](void* reader, float x, float y, float) {
+      static_cast<Reader*>(reader)->records_.uvs.push_back({x, y});
+    };
+    callbacks.index_cb = [](void* reader, tinyobj::index_t* indices, int count) {
+      static_cast<Reader*>(reader)->add_face(indices, static_cast<std::size_t>(count));
+    };
+    callbacks.usemtl_cb = [](void* reader, const char* name, int) {
+      static_cast<Reader*>(reader)->select_material(name);
+    };
+    std::istringstream stream(std::move(plain_));
+    tinyobj::LoadObjWithCallback(stream, callbacks, this);
     check_ranges();
     return std::move(records_);
   }
@@ -126,90 +149,86 @@ class Parser {
         {.file = *file_, .line = line, .problem = std::move(problem), .remedy = std::move(remedy)}};
   }
 
-  void parse_statement(std::string_view line) {
+  void check_statements(std::string_view text) {
+    std::string joined;
+    while (!text.empty()) {
+      const std::size_t end = text.find('\n');
+      const std::string_view line = trimmed(text.substr(0, end));
+      text.remove_prefix(end == text.npos ? text.size() : end + 1);
+      ++line_;
+      // A backslash at the end continues the statement on the next line.
+      if (line.ends_with('\\')) {
+        joined.append(line.substr(0, line.size() - 1)).append(" ");
+        continue;
+      }
+      check_statement(joined.empty() ? line : std::string_view(joined.append(line)));
+      joined.clear();
+    }
+    check_statement(joined);
+  }
+
+  void check_statement(std::string_view line) {
     const std::string_view keyword = next_word(line);
-    if (keyword == "v")
-      records_.positions.push_back(parse_vec3(line));
-    else if (keyword == "vn")
-      records_.normals.push_back(parse_vec3(line));
-    else if (keyword == "vt") {
-      const float u = parse_float(next_word(line));
-      const std::string_view v = next_word(line);
-      records_.uvs.push_back({u, v.empty() ? 0.0f : parse_float(v)});
-    } else if (keyword == "f")
-      parse_face(line);
+    if (keyword == "v" || keyword == "vn")
+      check_numbers(keyword, line, 3, 3);
+    else if (keyword == "vt")
+      check_numbers(keyword, line, 1, 2);
+    else if (keyword == "f")
+      check_face(line);
     else if (keyword == "usemtl")
-      select_material(trimmed(line).empty() ? "default" : trimmed(line));
+      plain_ += fmt::format("usemtl {}\n", trimmed(line).empty() ? "default" : trimmed(line));
     // Groups, smoothing, lines, points, curves and material libraries say nothing that is read here.
   }
 
-  vec3<float> parse_vec3(std::string_view line) const {
-    const float x = parse_float(next_word(line));
-    const float y = parse_float(next_word(line));
-    return {x, y, parse_float(next_word(line))};
-  }
-
-  /// A finite float. Text is read as double, so that numbers too small for a float become 0.
-  float parse_float(std::string_view word) const {
-    std::string_view digits = word;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool is_float = error == std::errc{} && end == digits.data() + digits.size() &&
-                          std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
-    if (!is_float)
-      fail(word.empty() ? "a number is missing" : quoted(word) + " is not a finite number",
-           "expected v x y z, vt u v or vn x y z");
-    return static_cast<float>(value);
-  }
-
-  void parse_face(std::string_view line) {
-    Face face{line_, records_.corners.size(), 0, 0};
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line))
-      records_.corners.push_back(parse_corner(word));
-    face.corner_count = records_.corners.size() - face.first_corner;
-    if (face.corner_count < 3)
-      fail(fmt::format("the face has {} corners", face.corner_count), "expected 3 or more");
-    if (records_.corners.size() > most_corners)
-      fail("too many corners", fmt::format("expected at most {}", most_corners));
-    if (!material_) select_material("default");
-    face.material = *material_;
-    records_.faces.push_back(face);
-  }
-
-  /// v, v/vt, v//vn or v/vt/vn.
-  Corner parse_corner(std::string_view word) const {
-    std::array<std::string_view, 3> parts{};
-    std::size_t count = 0;
-    for (std::string_view rest = word;; ++count) {
-      if (count == parts.size()) fail_corner(word);
-      const auto slash = rest.find('/');
-      parts[count] = rest.substr(0, slash);
-      if (slash == rest.npos) break;
-      rest.remove_prefix(slash + 1);
+  void check_numbers(std::string_view keyword, std::string_view line, int least, int most) {
+    plain_ += keyword;
+    for (int i = 0; i < most; ++i) {
+      const std::string_view word = next_word(line);
+      if (word.empty() && i >= least) break;
+      double value = 0;
+      if (!read_number(word.substr(word.starts_with('+') ? 1 : 0), value) ||
+          !(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+        fail(word.empty() ? "a number is missing" : quoted(word) + " is not a finite number",
+             "expected v x y z, vt u v or vn x y z");
+      // The library's arithmetic loses long numbers and overflows for some: it gets the shortest form.
+      fmt::format_to(std::back_inserter(plain_), " {}", static_cast<float>(value));
     }
-    Corner corner;
-    corner.position = parse_index("v", parts[0], records_.positions.size(), word);
-    if (!parts[1].empty()) corner.uv = parse_index("vt", parts[1], records_.uvs.size(), word);
-    if (!parts[2].empty()) corner.normal = parse_index("vn", parts[2], records_.normals.size(), word);
-    return corner;
+    plain_ += '\n';
   }
 
-  /// From 1, or from -1 backwards for the entry last read; the result counts from 0.
-  std::int64_t parse_index(std::string_view kind, std::string_view digits, std::size_t read_so_far,
-                           std::string_view word) const {
-    std::int64_t index = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
-    if (error != std::errc{} || end != digits.data() + digits.size() || index == 0) fail_corner(word);
-    if (index > 0) return index - 1;
+  void check_face(std::string_view line) {
+    plain_ += 'f';
+    std::size_t corners = 0;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++corners) {
+      if (!is_corner(word))
+        fail(quoted(word) + " is not a corner of a face",
+             "expected v, v/vt, v//vn or v/vt/vn with numbers from 1, or from -1 backwards");
+      plain_.append(" ").append(word);
+    }
+    if (corners < 3) fail(fmt::format("the face has {} corners", corners), "expected 3 or more");
+    corner_count_ += corners;
+    if (corner_count_ > most_corners)
+      fail("too many corners", fmt::format("expected at most {}", most_corners));
+    plain_ += '\n';
+    face_lines_.push_back(line_);
+  }
+
+  void add_face(const tinyobj::index_t* indices, std::size_t count) {
+    line_ = face_lines_[records_.faces.size()];
+    if (records_.materials.empty()) select_material("default");
+    records_.faces.push_back({records_.corners.size(), count, material_});
+    for (std::size_t i = 0; i < count; ++i)
+      records_.corners.push_back({resolved("v", indices[i].vertex_index, records_.positions.size()),
+                                  resolved("vt", indices[i].texcoord_index, records_.uvs.size()),
+                                  resolved("vn", indices[i].normal_index, records_.normals.size())});
+  }
+
+  /// From 1, or from -1 backwards for the entry last read, 0 for none; the result counts from 0.
+  int resolved(std::string_view kind, int index, std::size_t read_so_far) const {
+    if (index >= 0) return index - 1;
     const auto count = static_cast<std::int64_t>(read_so_far);
     if (index < -count) fail_range(kind, index, read_so_far);
-    return count + index;
-  }
-
-  [[noreturn]] void fail_corner(std::string_view word) const {
-    fail(quoted(word) + " is not a corner of a face",
-         "expected v, v/vt, v//vn or v/vt/vn with numbers from 1, or from -1 backwards");
+    return static_cast<int>(count + index);
   }
 
   [[noreturn]] void fail_range(std::string_view kind, std::int64_t index, std::size_t count) const {
@@ -217,15 +236,15 @@ class Parser {
          fmt::format("the file has {} {} lines here", count, kind));
   }
 
-  /// Faces may name entries that come later, so this is known at the end only.
   void check_ranges() {
-    const auto check = [this](std::string_view kind, std::int64_t index, std::size_t count) {
-      if (index >= static_cast<std::int64_t>(count)) fail_range(kind, index + 1, count);
+    const auto check = [this](std::string_view kind, int index, std::size_t count) {
+      if (index >= 0 && static_cast<std::size_t>(index) >= count)
+        fail_range(kind, std::int64_t{index} + 1, count);
     };
-    for (const Face& face : records_.faces) {
-      line_ = face.line;
-      for (std::size_t i = 0; i < face.corner_count; ++i) {
-        const Corner& corner = records_.corners[face.first_corner + i];
+    for (std::size_t face = 0; face < records_.faces.size(); ++face) {
+      line_ = face_lines_[face];
+      for (std::size_t i = 0; i < records_.faces[face].corner_count; ++i) {
+        const Corner& corner = records_.corners[records_.faces[face].first_corner + i];
         check("v", corner.position, records_.positions.size());
         check("vt", corner.uv, records_.uvs.size());
         check("vn", corner.normal, records_.normals.size());
@@ -233,21 +252,20 @@ class Parser {
     }
   }
 
-  void select_material(std::string_view name) {
-    const auto [entry, is_new] = materials_.try_emplace(std::string(name), materials_.size());
+  void select_material(const std::string& name) {
+    const auto [entry, is_new] = material_numbers_.try_emplace(name, records_.materials.size());
     material_ = static_cast<std::uint32_t>(entry->second);
-    if (is_new) records_.materials.push_back(entry->first);
-  }
-
-  static std::string quoted(std::string_view word) {
-    return fmt::format("\"{}{}\"", word.substr(0, longest_quote), word.size() > longest_quote ? "..." : "");
+    if (is_new) records_.materials.push_back(name);
   }
 
   const std::filesystem::path* file_;
   std::int64_t line_ = 0;
+  std::string plain_{}; ///< the checked statements
+  std::vector<std::int64_t> face_lines_{};
+  std::size_t corner_count_ = 0;
   Records records_{};
-  std::map<std::string, std::size_t> materials_{};
-  std::optional<std::uint32_t> material_{};
+  std::map<std::string, std::size_t> material_numbers_{};
+  std::uint32_t material_ = 0;
 };
 
 /// Smooth normals, one a position, over the fans of all faces.
@@ -313,9 +331,10 @@ Model read_obj(const std::filesystem::path& file, std::span<const std::byte> byt
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
     text.remove_prefix(byte_order_mark.size());
-  const Records records = Parser(file).parse(text);
+  const Records records = Reader(file).read(text);
   Model model;
-  for (const std::string& name : records.materials) model.materials.push_back({.name = name});
+  for (const std::string& name : records.materials)
+    model.materials.push_back({.name = name, .double_sided = true});
   model.meshes.push_back(weld(records));
   model.objects.push_back(
       {file.stem().string(), 0, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}});

@@ -68,7 +68,6 @@ TriangleMesh with_flat_normals(const TriangleMesh& mesh) {
       for (const std::uint32_t index : triangle) uvs.push_back(set[index]);
   }
   flat.material_of_triangle = mesh.material_of_triangle;
-  flat.material_names = mesh.material_names;
   return flat;
 }
 

@@ -25,8 +25,7 @@ struct TriangleMesh {
   std::vector<vec3<float>> normals{};                    ///< one a vertex; readers generate missing ones
   std::vector<std::vector<vec2<float>>> uv_sets{};       ///< [set][vertex]; may be empty
   std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< vertex indices, all in range
-  std::vector<std::uint32_t> material_of_triangle{};     ///< index into material_names, one a triangle
-  std::vector<std::string> material_names{};             ///< at least one entry
+  std::vector<std::uint32_t> material_of_triangle{};     ///< index into the model's materials, one a triangle
   /// [set]; an absent or empty entry means: not given by the file, generate on demand.
   std::vector<TangentSpace> tangent_spaces{};
 };

@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-stack::Wrap wrap_of(io::WrapMode mode) {
+stack::Wrap wrap_of(image::Wrap mode) {
   switch (mode) {
-  case io::WrapMode::mirror:
+  case image::Wrap::mirror:
     return stack::Wrap::mirror;
-  case io::WrapMode::clamp:
+  case image::Wrap::clamp:
     return stack::Wrap::clamp;
-  case io::WrapMode::repeat:
+  case image::Wrap::repeat:
     break;
   }
   return stack::Wrap::repeat;

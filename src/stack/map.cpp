@@ -42,8 +42,12 @@ const Fields<Texture>& Texture::fields() {
 }
 
 const Fields<Map>& Map::fields() {
-  static const auto table =
-      Fields<Map>().base<Texture>().word("channels", &Map::channels).word("green", &Map::green);
+  static const auto table = Fields<Map>().base<Texture>().word("green", &Map::green);
+  return table;
+}
+
+const Fields<TangentMap>& TangentMap::fields() {
+  static const auto table = Fields<TangentMap>().base<Map>().word("channels", &TangentMap::channels);
   return table;
 }
 

@@ -39,10 +39,17 @@ struct Texture {
 
 /// A map of normals.
 struct Map : Texture {
-  Channels channels = Channels::automatic;
+  /// Whether the y of its vectors grows with the green channel, or against it.
   Green green = Green::up;
 
   static const Fields<Map>& fields();
+};
+
+/// A map of normals in tangent space.
+struct TangentMap : Map {
+  Channels channels = Channels::automatic;
+
+  static const Fields<TangentMap>& fields();
 };
 
 /// A map that weighs a layer, 0 to 1 per point.

@@ -26,7 +26,6 @@ struct SurfacePoint {
 template <class Point, class Uv>
 void append_patch(mesh::TriangleMesh& mesh, int columns, int rows, const Point& point, const Uv& uv) {
   if (mesh.uv_sets.empty()) mesh.uv_sets.resize(1);
-  if (mesh.material_names.empty()) mesh.material_names = {"test"};
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (int j = 0; j <= rows; ++j)
     for (int i = 0; i <= columns; ++i) {
@@ -110,7 +109,6 @@ inline mesh::TriangleMesh plane(int cells) {
 /// Adds one triangle with vertices of its own; the normal is that of the plane through them.
 inline void append_triangle(mesh::TriangleMesh& mesh, vec3<double> a, vec3<double> b, vec3<double> c) {
   if (mesh.uv_sets.empty()) mesh.uv_sets.resize(1);
-  if (mesh.material_names.empty()) mesh.material_names = {"test"};
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const vec3<float> n = narrow(normalize_or_zero(cross(b - a, c - a)));
   for (const vec3<double>& p : {a, b, c}) {

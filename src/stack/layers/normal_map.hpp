@@ -8,7 +8,7 @@ namespace surfgrad::stack {
 struct NormalMapLayer {
   static constexpr std::string_view type = "normal_map";
   LayerCommon common{};
-  Map map{};
+  TangentMap map{};
   Basis basis = Basis::mikktspace;
 
   static const Fields<NormalMapLayer>& fields();

@@ -12,8 +12,8 @@ namespace {
 
 using surfgrad::test::Random;
 
-stack::Map use_of(const char* file) {
-  stack::Map use;
+stack::TangentMap use_of(const char* file) {
+  stack::TangentMap use;
   use.file = {file, 7, "layers[1].map"};
   return use;
 }
@@ -22,7 +22,7 @@ TEST(MapLibrary, MakesEachCombinationOnce) {
   Random random(171);
   const image::Image image = surfgrad::test::random_normal_map(random, 4, 4);
   MapLibrary maps([&](const std::filesystem::path&) -> const image::Image& { return image; });
-  stack::Map use = use_of("a.png");
+  stack::TangentMap use = use_of("a.png");
   const auto first = maps.slopes(use);
   EXPECT_EQ(maps.slopes(use), first);
   use.green = stack::Green::down;
@@ -58,7 +58,7 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
   };
   const auto slopes = [](MapLibrary& maps) { (void)maps.slopes(use_of("n.png")); };
   const auto xyz = [](MapLibrary& maps) {
-    stack::Map use = use_of("n.png");
+    stack::TangentMap use = use_of("n.png");
     use.channels = stack::Channels::xyz;
     (void)maps.slopes(use);
   };

@@ -45,7 +45,7 @@ struct TextureTransform : ::testing::Test {
   test::Random random{seed};
   image::Image map = coarse_map(random, size);
 
-  void expect_same(const image::Image& image, const stack::Map& use, const char* what) {
+  void expect_same(const image::Image& image, const stack::TangentMap& use, const char* what) {
     test::Lab lab;
     lab.add("map", map);
     lab.add("transformed", image);
@@ -72,7 +72,7 @@ struct TextureTransform : ::testing::Test {
 TEST_F(TextureTransform, QuarterTurnsEqualATurnedImage) {
   constexpr int n = size - 1;
   // st' = R st: the texel shown at (x, y) is the one at R (x, y); its vector turns back.
-  stack::Map use;
+  stack::TangentMap use;
   use.rotate_deg = 90;
   expect_same(transformed(
                   map, size, size,
@@ -107,7 +107,7 @@ TEST_F(TextureTransform, QuarterTurnsEqualATurnedImage) {
 
 TEST_F(TextureTransform, ANegativeTileEqualsAMirroredImage) {
   constexpr int n = size - 1;
-  stack::Map use;
+  stack::TangentMap use;
   use.tile = {-1, 1};
   expect_same(transformed(
                   map, size, size,
@@ -132,7 +132,7 @@ TEST_F(TextureTransform, ANegativeTileEqualsAMirroredImage) {
 
 TEST_F(TextureTransform, ATurnAfterAMirroredTileEqualsBothInThatOrder) {
   // st' = R(90) (-s, t) = (-t, -s).
-  stack::Map use;
+  stack::TangentMap use;
   use.tile = {-1, 1};
   use.rotate_deg = 90;
   expect_same(transformed(
@@ -147,7 +147,7 @@ TEST_F(TextureTransform, ATurnAfterAMirroredTileEqualsBothInThatOrder) {
 }
 
 TEST_F(TextureTransform, TilesRepeatTheImageAndKeepItsSlopes) {
-  stack::Map use;
+  stack::TangentMap use;
   use.tile = {2, 3};
   expect_same(transformed(
                   map, 2 * size, 3 * size,
@@ -159,7 +159,7 @@ TEST_F(TextureTransform, TilesRepeatTheImageAndKeepItsSlopes) {
 }
 
 TEST_F(TextureTransform, AnOffsetShiftsTheImage) {
-  stack::Map use;
+  stack::TangentMap use;
   use.offset = {3.0 / size, -5.0 / size};
   use.filter = stack::Filter::bilinear; // coarser levels do not move by whole texels
   expect_same(transformed(

@@ -56,7 +56,7 @@ json& accessor(Gltf& document, std::size_t index) { return document.json["access
 json& view(Gltf& document, std::size_t index) { return document.json["bufferViews"][index]; }
 
 void use_normal_texture(Gltf& document, const json& image, const json& info = {{"index", 0}}) {
-  document.json["images"] = {image};
+  document.json["images"] = json::array({image});
   document.json["textures"] = {{{"source", 0}}};
   document.json["materials"] = {{{"normalTexture", info}}};
 }
@@ -193,12 +193,18 @@ const std::vector<BadGltf> all_bad_gltf = {
     {"ViewOffsetFraction",
      [](Gltf& d) { view(d, 0)["byteOffset"] = 0.5; },
      {"bufferViews[0].byteOffset", "is 0.5"}},
+    {"ViewOfBufferIndexBeyond32Bits",
+     [](Gltf& d) { view(d, 0)["buffer"] = std::size_t{1} << 32; },
+     {"bufferViews[0].buffer", "buffers[4294967296] does not exist"}},
     {"ViewOfNoBuffer",
      [](Gltf& d) { view(d, 0)["buffer"] = 4; },
      {"bufferViews[0].buffer", "buffers[4] does not exist", "1 entry"}},
     {"StrideTooSmall", [](Gltf& d) { view(d, 0)["byteStride"] = 8; }, {"accessors[0]", "byteStride 8"}},
     {"StrideZero", [](Gltf& d) { view(d, 0)["byteStride"] = 0; }, {"bufferViews[0].byteStride"}},
     {"StrideHuge", [](Gltf& d) { view(d, 0)["byteStride"] = 4096; }, {"bufferViews[0].byteStride"}},
+    {"StrideOdd",
+     [](Gltf& d) { view(d, 0)["byteStride"] = 14; },
+     {"bufferViews[0].byteStride", "is 14", "multiple of 4"}},
     {"StridePastView", [](Gltf& d) { view(d, 0)["byteStride"] = 16; }, {"accessors[0]", "do not fit"}},
     // Accessors
     {"CountPastView",
@@ -224,6 +230,18 @@ const std::vector<BadGltf> all_bad_gltf = {
     {"NormalizedFloat",
      [](Gltf& d) { accessor(d, 0)["normalized"] = true; },
      {"accessors[0]", "5126 normalized"}},
+    {"UnknownType",
+     [](Gltf& d) { accessor(d, 0)["type"] = "VEC5"; },
+     {"accessors[0].type", "\"VEC5\"", "VEC3"}},
+    {"PositionMatrix",
+     [](Gltf& d) { accessor(d, 0)["type"] = "MAT3"; },
+     {"accessors[0].type", "\"MAT3\"", "\"VEC3\""}},
+    {"SparseOffsetBeyond32Bits",
+     [](Gltf& d) {
+       set_sparse(d, {1, 2});
+       accessor(d, 0)["sparse"]["values"]["byteOffset"] = std::size_t{1} << 32;
+     },
+     {"accessors[0].sparse.values.byteOffset", "is 4294967296"}},
     {"PositionVec2",
      [](Gltf& d) { accessor(d, 0)["type"] = "VEC2"; },
      {"accessors[0].type", "\"VEC2\"", "\"VEC3\""}},
@@ -283,6 +301,12 @@ const std::vector<BadGltf> all_bad_gltf = {
      {"has 2 indices", "3 or more"}},
     {"UnknownMode", [](Gltf& d) { primitive(d)["mode"] = 7; }, {"meshes[0].primitives[0].mode", "is 7"}},
     {"ModeIsText", [](Gltf& d) { primitive(d)["mode"] = "4"; }, {"meshes[0].primitives[0].mode", "is \"4\""}},
+    {"IndicesAreText",
+     [](Gltf& d) { primitive(d)["indices"] = "x"; },
+     {"meshes[0].primitives[0].indices", "is \"x\"", "whole number"}},
+    {"IndicesWithoutView",
+     [](Gltf& d) { accessor(d, 3).erase("bufferView"); },
+     {"accessor[3]", "bufferView"}},
     {"NoSuchMaterial",
      [](Gltf& d) { primitive(d)["material"] = 0; },
      {"primitives[0].material", "materials[0] does not exist"}},
@@ -371,7 +395,7 @@ const std::vector<BadGltf> all_bad_gltf = {
      {"materials[0].normalTexture", "\"index\" is missing"}},
     {"TextureWithoutSource",
      [](Gltf& d) {
-       use_normal_texture(d, {});
+       use_normal_texture(d, json::object());
        d.json["textures"][0].erase("source");
      },
      {"textures[0]", "\"source\" is missing"}},
@@ -560,8 +584,12 @@ TEST(BadModel, ObjNamesTheLine) {
   expect(good + "f 1 2 x\n", {"model.obj:6:", "\"x\""});
   expect(good + "f 1 2 3.5\n", {"model.obj:6:", "\"3.5\""});
   expect(good + "f 1 2 99999999999999999999\n", {"model.obj:6:", "\"99999999999999999999\""});
-  expect(good + "f 1 2 -9223372036854775808\n", {"model.obj:6:", "names v"});
-  expect(good + "f 1 2 9223372036854775807\n", {"model.obj:6:", "names v"});
+  expect(good + "f 1 2 -9223372036854775808\n", {"model.obj:6:", "\"-9223372036854775808\""});
+  expect(good + "f 1 2 9223372036854775807\n", {"model.obj:6:", "\"9223372036854775807\""});
+  expect(good + "f 1 2 4294967297\n", {"model.obj:6:", "\"4294967297\""}); // 1 modulo 2^32
+  expect(good + "f 1 2 2147483647\n", {"model.obj:6:", "v 2147483647", "has 3"});
+  expect(good + "f 1 2 -2147483648\n", {"model.obj:6:", "v -2147483648"});
+  expect(good + "f 1/x 2/1 3/1\n", {"model.obj:6:", "\"1/x\""});
   expect(good + "f 1 \\\n2 \\\n7\n", {"model.obj:8:"});
 }
 

@@ -297,12 +297,12 @@ TEST(Gltf, NormalTexturesFromFilesDataAndBufferViews) {
   EXPECT_EQ(normal(3).image, normal(0).image);
   EXPECT_EQ(normal(0).scale, 0.5);
   EXPECT_EQ(normal(0).uv_set, 3);
-  EXPECT_EQ(normal(0).wrap_s, WrapMode::clamp);
-  EXPECT_EQ(normal(0).wrap_t, WrapMode::mirror);
+  EXPECT_EQ(normal(0).wrap_s, image::Wrap::clamp);
+  EXPECT_EQ(normal(0).wrap_t, image::Wrap::mirror);
   EXPECT_EQ(normal(1).scale, 1.0);
   EXPECT_EQ(normal(1).uv_set, 0);
-  EXPECT_EQ(normal(1).wrap_s, WrapMode::repeat);
-  EXPECT_EQ(normal(2).wrap_t, WrapMode::repeat);
+  EXPECT_EQ(normal(1).wrap_s, image::Wrap::repeat);
+  EXPECT_EQ(normal(2).wrap_t, image::Wrap::repeat);
   EXPECT_FALSE(model.materials[4].normal.has_value());
 }
 

@@ -4,6 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
 namespace surfgrad::io {
 namespace {
 
@@ -35,7 +42,7 @@ TEST(Obj, PolygonsBecomeFansAndTextureCoordinatesStay) {
   EXPECT_EQ(model.objects[0].world_from_object.z.z, 1.0);
   ASSERT_EQ(model.materials.size(), 1u);
   EXPECT_EQ(model.materials[0].name, "default");
-  EXPECT_FALSE(model.materials[0].double_sided);
+  EXPECT_TRUE(model.materials[0].double_sided);
 }
 
 TEST(Obj, EveryFormOfIndexNamesTheSameCorner) {
@@ -110,6 +117,38 @@ TEST(Obj, LineEndsCommentsContinuationsAndLaterVertices) {
   EXPECT_EQ(mesh.positions[0].x, 1.0f);
   EXPECT_EQ(mesh.positions[1].y, 0.25f);
   EXPECT_EQ(mesh.positions[2].z, 0.0f);
+}
+
+TEST(Obj, NumbersAreReadToTheNearestFloat) {
+  const unsigned seed = 90210;
+  std::mt19937 random(seed);
+  std::string text;
+  std::vector<float> expected;
+  for (int i = 0; i < 30000; ++i) {
+    const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    expected.push_back(std::isfinite(value) ? value : 0.0f);
+    // From the shortest form to more digits than a double holds.
+    std::array<char, 64> digits{};
+    const int precision = 8 + i % 16;
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<double>(expected.back()),
+                      std::chars_format::scientific, precision);
+    text += (i % 3 == 0 ? "v " : " ") + std::string(digits.data(), end.ptr) + (i % 3 == 2 ? "\n" : "");
+  }
+  // A triangle for every vertex, so that none is left out.
+  for (int i = 1; i <= 10000; ++i) text += "f " + std::to_string(i) + " 1 2\n";
+  text += "v 0e999 0.0000001e7 1" + std::string(400, '0') + "e-400\nf 10001 1 2\n";
+  const mesh::TriangleMesh mesh = read(text).meshes[0];
+  for (std::size_t i = 0; i < 10000; ++i) {
+    const vec3<float> p = mesh.positions[mesh.triangles[i][0]];
+    ASSERT_EQ(p.x, expected[3 * i]) << "seed " << seed << ", vertex " << i;
+    ASSERT_EQ(p.y, expected[3 * i + 1]) << "seed " << seed << ", vertex " << i;
+    ASSERT_EQ(p.z, expected[3 * i + 2]) << "seed " << seed << ", vertex " << i;
+  }
+  const vec3<float> last = mesh.positions[mesh.triangles[10000][0]];
+  EXPECT_EQ(last.x, 0.0f);
+  EXPECT_EQ(last.y, 1.0f);
+  EXPECT_EQ(last.z, 1.0f);
 }
 
 } // namespace

@@ -120,7 +120,6 @@ TEST(WithFlatNormals, gives_every_corner_the_normal_of_its_triangle) {
     mesh.uv_sets[0].push_back({static_cast<float>(i), 0});
     mesh.uv_sets[1].push_back({0, -static_cast<float>(i)});
   }
-  mesh.material_names = {"a", "b"};
   mesh.material_of_triangle = {0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1};
   mesh.tangent_spaces.resize(2);
   mesh.tangent_spaces[1].corners.resize(36);
@@ -132,7 +131,6 @@ TEST(WithFlatNormals, gives_every_corner_the_normal_of_its_triangle) {
   ASSERT_EQ(flat.uv_sets.size(), 2u);
   ASSERT_EQ(flat.uv_sets[1].size(), 36u);
   EXPECT_EQ(flat.material_of_triangle, mesh.material_of_triangle);
-  EXPECT_EQ(flat.material_names, mesh.material_names);
   EXPECT_TRUE(flat.tangent_spaces.empty());
   const std::array<vec3<float>, 6> outward{
       {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}}};

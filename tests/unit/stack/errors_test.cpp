@@ -45,8 +45,8 @@ std::string in_mask(const std::string& keys) {
 std::string in_document(const std::string& keys) { return "{ \"surfgrad\": 1,\n" + keys + "\n}"; }
 
 constexpr const char* layer_keys =
-    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, channels, "
-    "green, basis, scale, mask, opacity, blend";
+    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, "
+    "channels, basis, scale, mask, opacity, blend";
 
 const Case not_json[] = {
     {"empty_file", "", 1, "", "is not valid JSON: unexpected end of input",
@@ -209,7 +209,7 @@ const Case wrong_layer[] = {
      in_document(
          "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"basis\": \"derived\"} ]"),
      3, "layers[0]", "unknown key \"basis\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, channels, green, space, scale, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, space, scale, "
      "mask, "
      "opacity, blend"},
     {"space_word",

@@ -24,7 +24,7 @@ struct StackText {
   }
   void map(const Map& m) {
     texture(m);
-    line("channels {} green {}", static_cast<int>(m.channels), static_cast<int>(m.green));
+    line("green {}", static_cast<int>(m.green));
   }
   void common(const LayerCommon& c) {
     line("scale {} opacity {} blend {}", c.scale, c.opacity, static_cast<int>(c.blend));
@@ -33,7 +33,7 @@ struct StackText {
     line("channel {}", static_cast<int>(c.mask->channel));
   }
   void operator()(const NormalMapLayer& l) {
-    line("normal_map basis {}", static_cast<int>(l.basis));
+    line("normal_map basis {} channels {}", static_cast<int>(l.basis), static_cast<int>(l.map.channels));
     common(l.common);
     map(l.map);
   }

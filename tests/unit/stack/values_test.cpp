@@ -75,7 +75,7 @@ constexpr std::string_view every_key = R"({
                 "filter": "bilinear", "channel": "a" } },
     { "type": "resolve" },
     { "type": "object_normal_map", "map": "sub/b.exr", "uv": 1, "tile": [1, 2], "rotate": 1e1,
-      "offset": [0, 1], "wrap": "clamp", "filter": "bilinear", "channels": "xyz", "green": "down",
+      "offset": [0, 1], "wrap": "clamp", "filter": "bilinear", "green": "down",
       "space": "world", "scale": 2, "opacity": 0, "blend": "mix", "mask": { "map": "q.png" } }
   ],
   "materials": { "skin": [ { "type": "resolve" } ], "Cloth.001": [], "\u00e9toile": [] },
@@ -88,19 +88,19 @@ TEST(StackValues, every_key_arrives) {
   EXPECT_EQ(text_of(stack), R"(mesh m.glb
 back_faces 2
 layers true
-normal_map basis 1
+normal_map basis 1 channels 2
 scale -1.5 opacity 0.5 blend 1
 k.png uv 7 tile 2 2 rotate -90 offset 1 2 wrap 2 filter 1
 channel 3
 a.png uv 3 tile 8 -2.5 rotate 30 offset 0.25 -4 wrap 1 filter 0
-channels 2 green 1
+green 1
 resolve
 object_normal_map space 1
 scale 2 opacity 0 blend 1
 q.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2
 channel 0
 sub/b.exr uv 1 tile 1 2 rotate 10 offset 0 1 wrap 2 filter 1
-channels 1 green 1
+green 1
 material Cloth.001
 material skin
 resolve
