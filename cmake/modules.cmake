@@ -18,7 +18,9 @@ target_compile_options(surfgrad_options INTERFACE
   $<$<BOOL:${SURFGRAD_WARNINGS_AS_ERRORS}>:-Werror>)
 if(SURFGRAD_SANITIZE)
   target_compile_options(surfgrad_options INTERFACE
-    -fsanitize=${SURFGRAD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${SURFGRAD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # gcc cannot follow initialisation through its own instrumentation (seen in libstdc++'s std::regex).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(surfgrad_options INTERFACE -fsanitize=${SURFGRAD_SANITIZE})
 endif()
 
