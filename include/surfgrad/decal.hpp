@@ -22,6 +22,7 @@ namespace surfgrad {
 /// deriv           derivative along the image's s and t
 /// axis_x, axis_y  axes of the projector for slopes, gradients of s and t for heights per image
 /// returns         deriv.x * axis_x + deriv.y * axis_y
+/// degenerate      zero axes, as outside a shape, give zero; NaN and Inf propagate
 /// error, component i  eps * (|deriv.x * axis_x[i]| + |deriv.y * axis_y[i]|), first order
 /// source          Mikkelsen 2019, listing 15
 template <Scalar T>
@@ -32,9 +33,11 @@ template <Scalar T>
 
 /// Surface gradient of a projected image.
 ///
-/// normal   unit base normal, in the space of the axes
-/// returns  from_volume_gradient(normal, decal_gradient(deriv, axis_x, axis_y))
-/// source   Mikkelsen 2019, listing 15
+/// normal      unit base normal, in the space of the axes
+/// returns     from_volume_gradient(normal, decal_gradient(deriv, axis_x, axis_y))
+/// degenerate  as these two: zero axes give zero, a zero normal leaves the volume gradient
+/// error       5 eps * (|deriv.x| |axis_x| + |deriv.y| |axis_y|): 1 of the sum, 4 of the projection
+/// source      Mikkelsen 2019, listing 15
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> from_decal(vec3<T> normal, vec2<T> deriv, vec3<T> axis_x,
                                                                 vec3<T> axis_y) {
@@ -166,7 +169,7 @@ template <Scalar T>
 /// fade       fraction of the half edges over which the influence fades, in [0, 1]; 0 is a hard edge
 /// returns    st = 1/2 + (x, y) / (2 * half_size.xy); axis_s, axis_t are the frame's; falloff the
 ///            product over the three axes
-/// degenerate a size that is not positive, or NaN in p: outside
+/// degenerate  a size that is not positive, or NaN in p: outside
 /// error      st 4 eps * |p - origin| / half_size; grad 1 eps relative
 /// source     Mikkelsen 2019, section 2.9
 template <Scalar T>
@@ -225,6 +228,7 @@ cone_decal(const DecalFrame<T>& frame, vec3<T> p, T tan_half_angle, T range, T f
 /// returns      as cone_decal for x less its part along the segment. Between the ends grad_s and
 ///              axis_s are zero: s does not change. They jump at the two planes where the segment ends
 ///              (st itself does not).
+/// source       own: cone_decal from the nearest point of a segment
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE DecalProjection<T>
 wedge_decal(const DecalFrame<T>& frame, vec3<T> p, T half_length, T tan_half_angle, T range, T fade,
@@ -260,6 +264,7 @@ template <Scalar T>
 /// other parameters, degenerate, error  as sphere_decal; the axis itself has no direction
 /// returns      as sphere_decal from the nearest point of the segment; unchanging is axis_x between the
 ///              ends
+/// source       own: sphere_decal from the nearest point of a segment
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE DecalDirection<T> capsule_decal(const DecalFrame<T>& frame, vec3<T> p,
                                                                    T half_length, T radius, T fade) {
@@ -271,13 +276,16 @@ template <Scalar T>
 
 /// Volume gradient of a sphere or capsule with a map of normals.
 ///
-/// decal    from sphere_decal or capsule_decal
-/// v        perturbed normal sampled at decal.lookup, in the space of the positions, of any length
-/// returns  the surface gradient of the sphere, which is the volume gradient because heights do not
-///          change along a ray; scale-free. In a capsule's cylinder without its part along the axis,
-///          along which heights do not change either.
+/// decal       from sphere_decal or capsule_decal
+/// v           perturbed normal sampled at decal.lookup, in the space of the positions, of any length
+/// returns     the surface gradient of the sphere, which is the volume gradient because heights do not
+///             change along a ray; scale-free. In a capsule's cylinder without its part along the axis,
+///             along which heights do not change either.
 /// degenerate  no direction: zero. Else as from_perturbed_normal.
-/// source   Mikkelsen 2019, listing 7 and section 2.9
+/// error       11 eps * |v| / |dot(decal.direction, v)| relative to max(1, |g|): 4 a component of
+///             from_perturbed_normal, whose length the projection may turn into one component, and 4 of
+///             the projection
+/// source      Mikkelsen 2019, listing 7 and section 2.9
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> decal_gradient_from_normal(const DecalDirection<T>& decal,
                                                                       vec3<T> v) {

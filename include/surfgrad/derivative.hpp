@@ -48,9 +48,10 @@ template <Scalar T>
 
 /// Unit tangent-space normal of a derivative: the inverse of derivative_from_normal.
 ///
-/// returns  normalize(-d.x, -d.y, 1)
-/// error    4 eps per component
-/// source   Mikkelsen 2019, equation 4
+/// returns     normalize(-d.x, -d.y, 1)
+/// degenerate  no finite derivative is; NaN and Inf give NaN
+/// error       4 eps per component
+/// source      Mikkelsen 2019, equation 4
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> normal_from_derivative(vec2<T> d) {
   return normalize_or_zero(vec3<T>{-d.x, -d.y, T(value_t<T>(1))});
@@ -60,6 +61,7 @@ template <Scalar T>
 ///
 /// h, h_x, h_y  heights at st, st + dst_dx, st + dst_dy
 /// returns      (dh/dx, dh/dy) per pixel, for from_height_derivative
+/// degenerate   equal heights give zero; NaN propagates, as does the difference of infinities
 /// error        half an ulp of the difference
 /// source       Mikkelsen 2019, listing 9
 template <Scalar T>
@@ -70,12 +72,14 @@ template <Scalar T>
 /// Derivative of the uniform cubic B-spline through (not interpolating) 4x4 heights: smooth where a
 /// height map is magnified.
 ///
-/// texels    rows along t (row x lowest), columns along s; the point lies between the second and
-///           third of each
-/// fraction  position in [0, 1]^2 from the second texel towards the third
-/// returns   (dh/ds, dh/dt) per texel, for from_texel_derivative
-/// error     8 eps * the largest |texel|
-/// source    the bicubic option of the paper's reference implementation, as a formula
+/// texels      rows along t (row x lowest), columns along s; the point lies between the second and
+///             third of each
+/// fraction    position in [0, 1]^2 from the second texel towards the third
+/// returns     (dh/ds, dh/dt) per texel, for from_texel_derivative
+/// degenerate  equal texels give zero to rounding; NaN in any texel propagates. A fraction outside
+///             [0, 1] continues the patch's polynomial, without the error bound.
+/// error       8 eps * the largest |texel|
+/// source      the bicubic option of the paper's reference implementation, as a formula
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec2<T> derivative_from_bicubic(const mat4<T>& texels,
                                                                              vec2<T> fraction) {
@@ -106,8 +110,10 @@ template <Scalar T>
 }
 
 /// Bump scale applied to a derivative.
-/// error   half an ulp per component
-/// source  Mikkelsen 2019, listing 3
+///
+/// degenerate  none: zero gives zero; NaN and Inf propagate
+/// error       half an ulp per component
+/// source      Mikkelsen 2019, listing 3
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec2<T> scale_bump(T scale, vec2<T> deriv) {
   return scale * deriv;

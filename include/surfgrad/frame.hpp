@@ -46,10 +46,10 @@ template <Scalar T>
           resolve_sign};
 }
 
-/// normalize(normal), or the direction of cross(dp_dx, dp_dy) where the normal is zero.
+/// normalize(normal), or the direction of plane_sign * cross(dp_dx, dp_dy) where the normal is zero.
 template <Scalar T>
-[[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> unit_normal_or_plane(vec3<T> normal, vec3<T> dp_dx,
-                                                                vec3<T> dp_dy) {
+[[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> unit_normal_or_plane(vec3<T> normal, vec3<T> dp_dx, vec3<T> dp_dy,
+                                                                T plane_sign) {
   const T tiny = T(std::numeric_limits<value_t<T>>::min());
   // One component at a time, so that NaN anywhere is not taken for absence.
   const mask_t<T> no_x = abs(normal.x) < tiny;
@@ -57,7 +57,7 @@ template <Scalar T>
   const mask_t<T> no_z = abs(normal.z) < tiny;
   const mask_t<T> absent = no_x & no_y & no_z;
   // Normalise the factors first: their product would underflow for a microscopic footprint.
-  const vec3<T> plane = cross(normalize_or_zero(dp_dx), normalize_or_zero(dp_dy));
+  const vec3<T> plane = plane_sign * cross(normalize_or_zero(dp_dx), normalize_or_zero(dp_dy));
   return normalize_or_zero(select<T>(absent, plane, normal));
 }
 
@@ -77,8 +77,9 @@ template <Scalar T>
 /// source        Mikkelsen 2019, listing 16
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Frame<T> make_frame(vec3<T> normal, vec3<T> dp_dx, vec3<T> dp_dy) {
-  return detail::frame_from_unit_normal(detail::unit_normal_or_plane(normal, dp_dx, dp_dy), dp_dx, dp_dy,
-                                        T(value_t<T>(1)));
+  const T one = T(value_t<T>(1));
+  return detail::frame_from_unit_normal(detail::unit_normal_or_plane(normal, dp_dx, dp_dy, one), dp_dx, dp_dy,
+                                        one);
 }
 
 /// Prologue for double-sided materials.
@@ -87,7 +88,11 @@ template <Scalar T>
 ///               determinant invert it first (winding turns over, the surface does not).
 /// back_faces    mirror and flip negate the interpolated normal of a back face; flip also sets
 ///               resolve_sign. Tangents and bitangents never change side.
-/// degenerate    as above; the normal that stands in for a zero one is negated too.
+/// returns       frame with unit normal
+/// degenerate    as above, but the cross product that stands in for a zero normal takes the side of the
+///               normal it replaces: seen from behind it faces away from the viewer in mode same, and,
+///               negated like any other, towards the viewer in modes mirror and flip
+/// error         as above: the signs are exact
 /// source        Mikkelsen 2019, listing 16 and section 2.10
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Frame<T> make_frame(vec3<T> normal, vec3<T> dp_dx, vec3<T> dp_dy,
@@ -96,12 +101,19 @@ template <Scalar T>
   const T back_sign = select(front_facing, one, -one);
   const T normal_sign = back_faces == BackFaces::same ? one : back_sign;
   const T resolve_sign = back_faces == BackFaces::flip ? back_sign : one;
-  return detail::frame_from_unit_normal(normal_sign * detail::unit_normal_or_plane(normal, dp_dx, dp_dy),
-                                        dp_dx, dp_dy, resolve_sign);
+  // The cross product faces the viewer, the normal of a surface seen from behind does not.
+  const vec3<T> front_normal = detail::unit_normal_or_plane(normal, dp_dx, dp_dy, back_sign);
+  return detail::frame_from_unit_normal(normal_sign * front_normal, dp_dx, dp_dy, resolve_sign);
 }
 
 /// Frame for layers that need no derivative of the position: volume, object-space normal and decal
-/// layers. dp and sigma are zero, flip_sign is +1.
+/// layers.
+///
+/// normal      interpolated vertex normal, of any length
+/// returns     frame with unit normal; dp and sigma are zero, flip_sign and resolve_sign +1
+/// degenerate  zero normal: zero, which makes the resolved normal zero; NaN propagates
+/// error       normal 3 eps per component
+/// source      Mikkelsen 2019, listing 16, less what depends on the position
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Frame<T> make_frame(vec3<T> normal) {
   const vec3<T> zero{T(value_t<T>(0)), T(value_t<T>(0)), T(value_t<T>(0))};
@@ -110,15 +122,20 @@ template <Scalar T>
 
 /// Frame of the next pass: bump mapping on top of a resolved normal (section 2.11, post-resolve).
 ///
-/// normal   the resolved normal: unit. It already carries the side, so it is never negated again.
-/// returns  frame with sigma and flip_sign recomputed for the new normal; resolve_sign is kept
-/// error    sigma 4 eps * |dp|
+/// normal      the resolved normal: unit. It already carries the side, so it is never negated again.
+/// returns     frame with sigma and flip_sign recomputed for the new normal; resolve_sign is kept
+/// degenerate  zero normal: sigma is dp, flip_sign +1, and the resolved normal zero; NaN propagates
+/// error       sigma 4 eps * |dp|
+/// source      Mikkelsen 2019, listing 16 and section 2.11
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr Frame<T> rebase_frame(const Frame<T>& frame, vec3<T> normal) {
   return detail::frame_from_unit_normal(normal, frame.dp_dx, frame.dp_dy, frame.resolve_sign);
 }
 
 /// The same, where the position changed too (parallax, displacement): dp from screen_derivatives.
+///
+/// dp_dx, dp_dy  of the new position
+/// normal, returns, degenerate, error, source  as above
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr Frame<T> rebase_frame(const Frame<T>& frame, vec3<T> normal,
                                                                    vec3<T> dp_dx, vec3<T> dp_dy) {

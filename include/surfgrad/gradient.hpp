@@ -117,8 +117,10 @@ template <Scalar T>
 }
 
 /// Bump scale applied to a surface gradient.
-/// error   half an ulp per component
-/// source  Mikkelsen 2019, listing 2
+///
+/// degenerate  none: zero gives zero; NaN and Inf propagate
+/// error       half an ulp per component
+/// source      Mikkelsen 2019, listing 2
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> scale_bump(T scale, vec3<T> surfgrad) {
   return scale * surfgrad;

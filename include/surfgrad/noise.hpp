@@ -104,6 +104,8 @@ template <LaneScalar T, class Hash>
 }
 
 /// Perlin's gradient noise of 2002 over lattice_hash: no period that can be seen.
+///
+/// p, returns, degenerate, error, source  as above
 template <LaneScalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> perlin(vec3<T> p) {
   return perlin(p, LatticeHash<T>{});
@@ -213,6 +215,7 @@ template <Scalar T, class Function>
 /// step        about sqrt(eps) times the scale of f's detail
 /// returns, degenerate  as gradient_by_differences
 /// error       step / 2 * |second derivative| + 2 eps * |f| / step
+/// source      Gustavson
 template <Scalar T, class Function>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> gradient_by_forward_differences(Function f, vec3<T> p, T value,
                                                                            value_t<T> step) {

@@ -60,6 +60,7 @@ SURFGRAD_HOST_DEVICE constexpr void extract_power(T& rest, T& power) {
 /// degenerate  zero, negative, subnormal and NaN arguments give the logarithm of the smallest normal
 ///             number (about -126 or -1022): a finite LOD or power is wanted there, never -Inf
 /// error       2 eps * max(1, |log2(a)|)
+/// source      own; series as derived in the body
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T log2(T a) {
   const T zero = T(value_t<T>(0));
@@ -88,6 +89,7 @@ template <Scalar T>
 /// degenerate  saturates: at and below the smallest normal exponent the result is 0, above the largest it
 ///             is the largest finite number; NaN gives 0
 /// error       4 eps relative
+/// source      own; series as derived in the body
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T exp2(T a) {
   const T zero = T(value_t<T>(0));
@@ -114,8 +116,9 @@ template <Scalar T>
 
 /// a to the power k, for a >= 0.
 ///
-/// degenerate  a = 0 gives 0 for k > 0
+/// degenerate  a zero, negative or NaN gives 0, whatever k; NaN in k gives 0; saturates as exp2
 /// error       (4 + 2 * |k * log2(a)|) eps relative: the logarithm's error is raised too
+/// source      own: 2^(k * log2(a))
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T pow(T a, T k) {
   return select(T(value_t<T>(0)) < a, exp2(k * log2(a)), T(value_t<T>(0)));

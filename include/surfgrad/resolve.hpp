@@ -26,6 +26,7 @@ template <Scalar T>
 ///
 /// resolved        perturbed normal
 /// initial_normal  unit base normal (negated on back faces) as it was before the first resolve
+/// degenerate      a zero initial normal gives -resolved; NaN propagates
 /// error           6 eps per component
 /// source          Mikkelsen 2019, section 2.10. Equal to BackFaces::flip for one pass; across a
 ///                 post-resolve volume layer it is not, so prefer the mode.
@@ -97,6 +98,9 @@ tangent_normal_matrix(const mat3<T>& rotation, const mat3<T>& scale, vec3<T> dp_
 }
 
 /// The same for a scale along the object's axes.
+///
+/// scale  factors along x, y and z; negative ones mirror
+/// other parameters, returns, degenerate, error, source  as above, |scale| being the vector's length
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr mat3<T>
 tangent_normal_matrix(const mat3<T>& rotation, vec3<T> scale, vec3<T> dp_du, vec3<T> dp_dv, vec3<T> normal) {

@@ -67,6 +67,7 @@ screen_derivatives(vec3<T> position, vec3<T> normal, const mat4<T>& world_from_s
 ///
 /// grad_s, grad_t  gradients of s and t in space, e.g. decal axes times the tiling
 /// returns         dst_dx, dst_dy: right on displaced surfaces and across depth edges
+/// degenerate      zero gradients or zero dp give zero; NaN and Inf propagate
 /// error           1.5 eps * the sum of the magnitudes of the terms
 /// source          Mikkelsen 2019, section 2.9: s and t are functions of space
 template <Scalar T>

@@ -79,7 +79,9 @@ template <Scalar T>
 
 /// Texture coordinates that a convention samples at position p (in texture units).
 ///
-/// source  Mikkelsen 2019, section 2.8; Golubev, equation 46
+/// degenerate  none; a component's NaN or Inf stays in the coordinates made of it
+/// error       none: components are copied or negated
+/// source      Mikkelsen 2019, section 2.8; Golubev, equation 46
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr TriplanarCoordinates<T>
 triplanar_coordinates(vec3<T> p, TriplanarConvention convention = {}) {
@@ -92,9 +94,11 @@ triplanar_coordinates(vec3<T> p, TriplanarConvention convention = {}) {
 
 /// Volume gradient of one planar projection along an axis: no normal needed.
 ///
-/// deriv    (dh/ds, dh/dt) sampled at that plane's coordinate of triplanar_coordinates
-/// returns  gradient with respect to the position, exact; the component along the axis is zero
-/// source   Mikkelsen 2019, section 2.8; Golubev, equations 44, 50
+/// deriv       (dh/ds, dh/dt) sampled at that plane's coordinate of triplanar_coordinates
+/// returns     gradient with respect to the position; the component along the axis is zero
+/// degenerate  none; NaN and Inf stay in the components made of them
+/// error       none: components are copied or negated
+/// source      Mikkelsen 2019, section 2.8; Golubev, equations 44, 50
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> planar_gradient(PlaneAxis axis, vec2<T> deriv,
                                                                      TriplanarConvention convention = {}) {
@@ -113,11 +117,12 @@ template <Scalar T>
 
 /// Volume gradient of a triplanar projection under a convention: no normal needed.
 ///
-/// weights  triplanar_weights, constant over the neighbourhood of the point (section 2.8)
-/// deriv_*  derivatives sampled at triplanar_coordinates(p, convention)
-/// returns  gradient with respect to p; multiply by the texture's frequency for that of the position
-/// error    3 eps * the sum of the magnitudes of the terms
-/// source   Mikkelsen 2019, listing 13; Golubev, equation 49
+/// weights     triplanar_weights, constant over the neighbourhood of the point (section 2.8)
+/// deriv_*     derivatives sampled at triplanar_coordinates(p, convention)
+/// returns     gradient with respect to p; multiply by the texture's frequency for that of the position
+/// degenerate  zero weights give zero; NaN and Inf propagate, even from a plane of weight 0
+/// error       3 eps * the sum of the magnitudes of the terms
+/// source      Mikkelsen 2019, listing 13; Golubev, equation 49
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> triplanar_gradient(vec3<T> weights, vec2<T> deriv_x,
                                                                         vec2<T> deriv_y, vec2<T> deriv_z,
@@ -128,6 +133,8 @@ template <Scalar T>
 }
 
 /// The same under the convention of listing 13: left-handed, lower-left origin, (z,y), (x,z), (x,y).
+///
+/// parameters, returns, degenerate, error, source  as above
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T> triplanar_gradient(vec3<T> weights, vec2<T> deriv_x,
                                                                         vec2<T> deriv_y, vec2<T> deriv_z) {
@@ -136,10 +143,11 @@ template <Scalar T>
 
 /// Surface gradient of a triplanar projection.
 ///
-/// normal   unit base normal: the interpolated one, or a resolved one in a later pass
-/// returns  from_volume_gradient(normal, triplanar_gradient(...))
-/// error    8 eps * (weights.x |deriv_x| + weights.y |deriv_y| + weights.z |deriv_z|)
-/// source   Mikkelsen 2019, listing 13
+/// normal      unit base normal: the interpolated one, or a resolved one in a later pass
+/// returns     from_volume_gradient(normal, triplanar_gradient(...))
+/// degenerate  as these two: zero weights give zero, a zero normal leaves the volume gradient
+/// error       8 eps * (weights.x |deriv_x| + weights.y |deriv_y| + weights.z |deriv_z|)
+/// source      Mikkelsen 2019, listing 13
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr vec3<T>
 from_triplanar(vec3<T> normal, vec3<T> weights, vec2<T> deriv_x, vec2<T> deriv_y, vec2<T> deriv_z,

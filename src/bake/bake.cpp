@@ -8,17 +8,22 @@
 
 #include <surfgrad/resolve.hpp>
 
+#include <algorithm>
 #include <atomic>
 
 namespace surfgrad::bake {
 namespace {
 
-void check_unwrapped(const scene::Scene& scene) {
-  for (const scene::Object& object : scene.objects)
-    if (scene.meshes[object.mesh].uv_sets.empty())
-      throw InputError({.place = "mesh \"" + object.name + "\"",
-                        .problem = "has no texture coordinates to bake over",
-                        .remedy = "unwrap it first (UV set 0)"});
+/// Triangles that lie, wholly or in part, where the map does not reach.
+std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std::size_t slot) {
+  std::int64_t count = 0;
+  for (const raster::Surface& surface : surfaces)
+    for (const auto& triangle : surface.mesh->triangles)
+      count += std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
+        const vec2<double> st = surface.slots[slot].st[vertex];
+        return st.x < 0 || st.x > 1 || st.y < 0 || st.y > 1;
+      });
+  return count;
 }
 
 struct Counts {
@@ -39,7 +44,7 @@ vec3<double> texel_normal(const stage::Stage& stage, const scene::Scene& scene, 
   if (options.space == Space::world) return c.normal;
   if (options.space == Space::object) {
     // The transpose of M takes normals back: it is the inverse of the inverse transpose.
-    const mat3<double> linear = stage::linear_part(scene.objects[what.surface].world_from_object);
+    const mat3<double> linear = raster::linear_part(scene.objects[what.surface].world_from_object);
     const vec3<double> n = normalize_or_zero(transpose(linear) * c.normal);
     if (max_abs(n) > 0 || max_abs(c.normal) == 0) return n;
     ++counts.singular;
@@ -57,10 +62,10 @@ vec3<double> texel_normal(const stage::Stage& stage, const scene::Scene& scene, 
 } // namespace
 
 Baked bake(const scene::Scene& scene, const Options& options, const Report& report) {
-  check_unwrapped(scene);
   const stage::Stage stage(scene, {0, 0, 0}, {{0, options.space == Space::tangent}}, report);
   const std::size_t slot = stage.slot_of(0);
   Baked baked;
+  baked.outside = triangles_outside(stage.surfaces(), slot);
   const raster::VisibilityBuffer layout =
       raster::lay_out_in_uv(stage.surfaces(), slot, options.width, options.height, &baked.overlapping);
   baked.map = image::make_image(options.width, options.height, 3, image::Depth::unorm16);
@@ -77,7 +82,8 @@ Baked bake(const scene::Scene& scene, const Options& options, const Report& repo
     }
   });
   if (counts.covered == 0)
-    throw InputError({.problem = "no triangle covers a texel of the unit square of UV set 0",
+    throw InputError({.file = scene.source,
+                      .problem = "no triangle covers a texel of the unit square of UV set 0",
                       .remedy = "check the mesh's texture coordinates, or bake at a larger size"});
   baked.covered = counts.covered;
   baked.singular = counts.singular;

@@ -24,6 +24,7 @@ struct Options {
 struct Baked {
   image::Image map; ///< rgb, n / 2 + 1/2; (0, 0, 1) where no surface lies
   std::int64_t covered = 0;
+  std::int64_t outside = 0;     ///< triangles that reach beyond [0, 1]^2: what lies there is not in the map
   std::int64_t overlapping = 0; ///< texels that more than one triangle covers; the lowest index wins
   /// Texels whose vertex frame (or, in object space, transform) cannot be inverted: (0, 0, 1).
   std::int64_t singular = 0;

@@ -83,15 +83,6 @@ Influence influence_of(const stack::LayerCommon& common, const std::vector<raste
   return influence;
 }
 
-void require_channels(const image::Image& image, int least, const stack::Map& use, const char* what) {
-  if (image.channels >= least) return;
-  throw InputError(
-      {.file = use.file.path,
-       .place = use.file.key,
-       .problem = "has " + std::to_string(image.channels) + (image.channels == 1 ? " channel" : " channels"),
-       .remedy = what + std::string(least == 3 ? " of x, y and z needs three" : " needs two or three")});
-}
-
 void add_slot(const stack::Texture& use, bool tangents, std::vector<raster::UvSlot>& slots) {
   const auto found =
       std::find_if(slots.begin(), slots.end(), [&](const raster::UvSlot& s) { return s.uv_set == use.uv; });
@@ -125,6 +116,19 @@ void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raste
           }
         },
         layer);
+}
+
+void MapLibrary::require_channels(const image::Image& image, int least, const stack::Map& use,
+                                  const char* what) const {
+  // Opacity is no part of a vector: it does not count.
+  const int channels = image.channels - (image.has_alpha ? 1 : 0);
+  if (channels >= least) return;
+  const std::string namer = document_.filename().string() + ":" + std::to_string(use.file.line) + ": ";
+  throw InputError(
+      {.file = use.file.path,
+       .place = use.file.line > 0 ? "(named by " + namer + use.file.key + ")" : use.file.key,
+       .problem = "has " + std::to_string(channels) + (channels == 1 ? " channel" : " channels"),
+       .remedy = what + std::string(least == 3 ? " of x, y and z needs three" : " needs two or three")});
 }
 
 std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::TangentMap& use) {

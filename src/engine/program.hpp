@@ -30,8 +30,10 @@ void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raste
 class MapLibrary {
  public:
   /// find returns the image of a file named in a layer; it stays alive as long as the library.
-  explicit MapLibrary(std::function<const image::Image&(const std::filesystem::path&)> find)
-      : find_(std::move(find)) {}
+  /// document is what messages say named the files; may be empty.
+  explicit MapLibrary(std::function<const image::Image&(const std::filesystem::path&)> find,
+                      std::filesystem::path document = {})
+      : find_(std::move(find)), document_(std::move(document)) {}
 
   /// These throw InputError where the image has too few channels.
   std::shared_ptr<const image::Map> slopes(const stack::TangentMap& use);
@@ -47,7 +49,10 @@ class MapLibrary {
   [[nodiscard]] const std::vector<InwardTexels>& inward_texels() const { return inward_; }
 
  private:
+  void require_channels(const image::Image& image, int least, const stack::Map& use, const char* what) const;
+
   std::function<const image::Image&(const std::filesystem::path&)> find_;
+  std::filesystem::path document_;
   std::map<std::string, std::shared_ptr<const image::Map>> maps_;
   std::vector<InwardTexels> inward_;
 };

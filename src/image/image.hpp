@@ -16,8 +16,9 @@ enum class Depth { unorm8, unorm16, half, float32 };
 struct Image {
   int width = 0;
   int height = 0;
-  int channels = 0;            ///< 1 grey, 2 grey+alpha or rg, 3 rgb, 4 rgba
+  int channels = 0;            ///< 1 grey, 2 rg or grey+alpha, 3 rgb, 4 rgba
   Depth depth = Depth::unorm8; ///< precision of the source file
+  bool has_alpha = false;        ///< the last channel is opacity: 2 is grey+alpha, else two data channels
   std::vector<float> texels{}; ///< width * height * channels, row 0 at the bottom
 
   [[nodiscard]] std::size_t index(int x, int y, int channel = 0) const {
@@ -31,7 +32,7 @@ struct Image {
 
 /// A black image of the given shape.
 [[nodiscard]] inline Image make_image(int width, int height, int channels, Depth depth = Depth::unorm8) {
-  Image image{width, height, channels, depth, {}};
+  Image image{width, height, channels, depth, false, {}};
   image.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                       static_cast<std::size_t>(channels));
   return image;

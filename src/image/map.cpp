@@ -130,9 +130,8 @@ Map make_direction_map(const Image& image, bool green_up) {
 }
 
 Map make_channel_map(const Image& image, int channel) {
-  const bool has_alpha = image.channels == 2 || image.channels == 4;
-  const int alpha = has_alpha ? image.channels - 1 : -1;
-  const int colors = has_alpha ? image.channels - 1 : image.channels;
+  const int alpha = image.has_alpha ? image.channels - 1 : image.channels == 4 ? 3 : -1;
+  const int colors = image.has_alpha ? image.channels - 1 : image.channels;
   const int source = channel == 3 ? alpha : std::min(channel, colors - 1);
   Texels values(texel_count(image), 1.0f);
   for (std::size_t i = 0; source >= 0 && i < values.size(); ++i) {

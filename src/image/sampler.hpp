@@ -2,6 +2,7 @@
 
 #include "image/map.hpp"
 
+#include <surfgrad/noise_hash.hpp>
 #include <surfgrad/vec.hpp>
 
 #include <array>
@@ -29,10 +30,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-template <LaneScalar T>
-[[nodiscard]] index_t<T> index_constant(std::int32_t i) {
-  return to_index(T(static_cast<value_t<T>>(i)));
-}
+using surfgrad::detail::index_constant;
 
 /// Two neighbouring texel indices and the weight of the second.
 template <class T>

@@ -207,6 +207,7 @@ Image read_pixels(const Source& source) {
   const int height = window.max.y - window.min.y + 1;
   const int channels = static_cast<int>(names.size());
   Image image = image::make_image(width, height, channels, depth);
+  image.has_alpha = names.back() == "A" || names.back().ends_with(".A");
   Imf::FrameBuffer target;
   const std::size_t texel_bytes = sizeof(float) * names.size();
   for (std::size_t i = 0; i < names.size(); ++i)

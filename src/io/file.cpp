@@ -25,6 +25,9 @@ namespace {
 // terabyte must not be read into memory.
 constexpr std::uintmax_t max_file_bytes = std::uintmax_t{8} << 30;
 
+// As many links in a row as Linux follows: a circle has no end.
+constexpr int most_links = 40;
+
 [[noreturn]] void cannot_write(const fs::path& file, std::string_view doing, int error_number) {
   throw MachineError(
       fmt::format("{}: cannot {}: {}", file.string(), doing, std::generic_category().message(error_number)));
@@ -33,7 +36,13 @@ constexpr std::uintmax_t max_file_bytes = std::uintmax_t{8} << 30;
 /// Where the bytes really go: the target of a symbolic link, checked to be a name a file can take.
 fs::path checked_target(const fs::path& file) {
   std::error_code error;
-  const fs::path target = fs::is_symlink(file, error) ? fs::weakly_canonical(file, error) : file;
+  fs::path target = file;
+  // Link by link, since the last may point to a file that is still to be created.
+  for (int links = 0; fs::is_symlink(target, error); ++links) {
+    if (links == most_links) cannot_write(file, "resolve this path", ELOOP);
+    target = target.parent_path() / fs::read_symlink(target, error);
+    if (error) break;
+  }
   if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
     cannot_write(file, "resolve this path", error.value());
   if (target.filename().empty() || target.filename() == "." || target.filename() == "..")
@@ -56,7 +65,8 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// A new file beside the target, removed again unless it is renamed into place.
+/// A new file beside the target, removed again unless it is renamed into place. It has the
+/// permissions of the file that it is to replace, before it holds anything.
 class Temporary {
  public:
   explicit Temporary(fs::path target) : target_(std::move(target)) {
@@ -68,6 +78,9 @@ class Temporary {
       if (!stream_ && errno != EEXIST) break;
     }
     if (!stream_) cannot_write(target_, "create a file in this folder", errno);
+    std::error_code ignored; // a file system without permissions has none to keep
+    const fs::file_status old = fs::status(target_, ignored);
+    if (fs::exists(old)) fs::permissions(path_, old.permissions() & fs::perms::all, ignored);
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;

@@ -14,8 +14,9 @@ namespace surfgrad::io {
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file);
 
 /// Writes all or nothing: a temporary file beside the target is completed, then renamed over it.
-/// A symbolic link is followed, so that the link survives. On failure the temporary is removed
-/// and whatever the target held before is untouched.
+/// A symbolic link is followed, also to a file that does not exist yet, so that the link survives.
+/// A file that is replaced passes its permission bits on. On failure the temporary is removed and
+/// whatever the target held before is untouched.
 ///
 /// Throws InputError as check_writable does, MachineError where the file system fails (disk full,
 /// no permission).

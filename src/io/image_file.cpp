@@ -2,6 +2,7 @@
 
 #include "diagnostic/error.hpp"
 #include "io/codecs.hpp"
+#include "io/extension.hpp"
 #include "io/file.hpp"
 
 #include <fmt/format.h>
@@ -79,13 +80,6 @@ bool starts_with(std::span<const std::byte> bytes, std::string_view magic) {
          std::equal(magic.begin(), magic.end(), bytes.begin(), [](char c, std::byte b) {
            return static_cast<std::byte>(static_cast<unsigned char>(c)) == b;
          });
-}
-
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 Reader find_reader(std::span<const std::byte> bytes, const fs::path& name) {

@@ -1,6 +1,7 @@
 #include "io/model_file.hpp"
 
 #include "diagnostic/error.hpp"
+#include "io/extension.hpp"
 #include "io/file.hpp"
 #include "io/gltf.hpp"
 #include "io/obj.hpp"
@@ -13,20 +14,8 @@
 #include <vector>
 
 namespace surfgrad::io {
-namespace {
-
-/// The extension in lower case, whatever the locale.
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
-} // namespace
-
 Model read_model(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
+  const std::string extension = lower_extension(file);
   if (extension != ".gltf" && extension != ".glb" && extension != ".obj")
     throw InputError{{.file = file,
                       .problem = extension.empty() ? "has no extension"

@@ -124,6 +124,7 @@ Image decode_png(const Source& source) {
   const bool deep = header.bit_depth == 16;
   Image image = image::make_image(static_cast<int>(header.width), static_cast<int>(header.height),
                                   layout.channels, deep ? Depth::unorm16 : Depth::unorm8);
+  image.has_alpha = layout.channels == 2 || layout.channels == 4;
   if (deep)
     store<std::uint16_t>(raw, layout, image);
   else

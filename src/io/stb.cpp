@@ -75,6 +75,7 @@ Image to_image(const Source& source, const Sample* pixels, int width, int height
                Convert convert) {
   if (!pixels) source.fail_damaged(stbi_failure_reason());
   Image image = image::make_image(width, height, channels, depth);
+  image.has_alpha = channels == 2 || channels == 4;
   for (int y = 0; y < height; ++y)
     for (float& value : row(image, flipped(image, y))) value = convert(*pixels++);
   return image;

@@ -128,6 +128,7 @@ struct Layout {
   Depth depth = Depth::unorm8;
   std::size_t sample_bytes = 1;
   int channels = 1;
+  bool has_alpha = false;     ///< the last channel is opacity
   bool separate = false;      ///< one plane a channel
   bool bottom_up = false;     ///< row 0 of the file is the bottom row
   bool white_is_zero = false; ///< of the grey channel
@@ -155,6 +156,10 @@ Layout read_layout(TIFF* tiff, const Source& source) {
   if (samples < 1 || samples > 4)
     source.fail(fmt::format("has {} samples a pixel", samples), "save it with 1 to 4 channels");
   layout.channels = samples;
+  std::uint16_t extra_count = 0;
+  const std::uint16_t* extra = nullptr;
+  if (TIFFGetFieldDefaulted(tiff, TIFFTAG_EXTRASAMPLES, &extra_count, &extra) == 1 && extra_count > 0)
+    layout.has_alpha = extra[extra_count - 1] != EXTRASAMPLE_UNSPECIFIED;
 
   const auto photometric = field<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
   layout.white_is_zero = photometric == PHOTOMETRIC_MINISWHITE;
@@ -258,6 +263,7 @@ Image decode_tiff(const Source& source) {
 
   Image image =
       image::make_image(static_cast<int>(width), static_cast<int>(height), layout.channels, layout.depth);
+  image.has_alpha = layout.has_alpha;
   for (int channel = 0; channel < layout.channels; channel += channels_per_block)
     for (std::uint32_t y = 0; y < height; y += block_height)
       for (std::uint32_t x = 0; x < width; x += block_width) {
@@ -298,7 +304,7 @@ std::vector<std::byte> encode_tiff(const Image& image, Depth depth) {
   set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   if (image.channels == 2 || image.channels == 4) {
-    std::uint16_t extra = image.channels == 4 ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED;
+    std::uint16_t extra = image.has_alpha ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED;
     check(TIFFSetField(tiff.get(), TIFFTAG_EXTRASAMPLES, 1, &extra) == 1);
   }
   set(TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);

@@ -7,10 +7,6 @@
 namespace surfgrad::raster {
 namespace {
 
-mat3<double> linear_part(const mat4<double>& m) {
-  return {{m.x.x, m.x.y, m.x.z}, {m.y.x, m.y.y, m.y.z}, {m.z.x, m.z.y, m.z.z}};
-}
-
 vec3<double> widened(vec3<float> v) { return {v.x, v.y, v.z}; }
 
 std::vector<vec4<double>> placed_tangents(const mesh::TriangleMesh& mesh, int uv_set,
@@ -28,6 +24,10 @@ std::vector<vec4<double>> placed_tangents(const mesh::TriangleMesh& mesh, int uv
 }
 
 } // namespace
+
+mat3<double> linear_part(const mat4<double>& m) {
+  return {{m.x.x, m.x.y, m.x.z}, {m.y.x, m.y.y, m.y.z}, {m.z.x, m.z.y, m.z.z}};
+}
 
 Surface place_mesh(const mesh::TriangleMesh& mesh, const mat4<double>& world_from_object, vec3<double> origin,
                    const std::vector<UvSlot>& slots) {
@@ -113,9 +113,11 @@ V weighted(const std::array<double, 3>& w, const Corner& corner) {
   return w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2);
 }
 
+/// Unit, as vertex normals are: the strength of bumps follows the length of the normal.
 vec3<double> triangle_normal(const Surface& surface, const std::array<std::uint32_t, 3>& triangle) {
   const vec3<double> a = surface.positions[triangle[0]];
-  const vec3<double> n = cross(surface.positions[triangle[1]] - a, surface.positions[triangle[2]] - a);
+  const vec3<double> n =
+      normalize_or_zero(cross(surface.positions[triangle[1]] - a, surface.positions[triangle[2]] - a));
   return surface.mirrored ? -n : n;
 }
 

@@ -30,6 +30,9 @@ struct Surface {
   bool mirrored = false;          ///< the transform turns winding over (negative determinant)
 };
 
+/// Upper left 3x3 part of an affine transform.
+[[nodiscard]] mat3<double> linear_part(const mat4<double>& m);
+
 /// Places a mesh in the world.
 ///
 /// world_from_object  affine; may scale non-uniformly and mirror. Normals go through

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "diagnostic/report.hpp"
 #include "raster/surface.hpp"
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 #include "render/camera.hpp"
 
+#include "mesh/bounds.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,14 +60,10 @@ Pinhole place_camera(const scene::Scene& scene, int width, int height) {
   camera.focal_px = 0.5 * height / tan_half * view.zoom;
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  vec3<double> low{infinity, infinity, infinity};
-  vec3<double> high{-infinity, -infinity, -infinity};
-  for_each_vertex(scene, [&](vec3<double> p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  });
-  const vec3<double> centre = 0.5 * (low + high);
-  const double size = std::max(length(high - low), std::numeric_limits<double>::min());
+  mesh::Bounds bounds;
+  for_each_vertex(scene, [&](vec3<double> p) { bounds = mesh::unite(bounds, {p, p}); });
+  const vec3<double> centre = mesh::center(bounds);
+  const double size = std::max(2 * mesh::radius(bounds), std::numeric_limits<double>::min());
 
   if (view.position && view.target) {
     camera.eye = *view.position;

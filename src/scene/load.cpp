@@ -1,6 +1,7 @@
 #include "scene/scene.hpp"
 
 #include "diagnostic/error.hpp"
+#include "io/extension.hpp"
 #include "io/file.hpp"
 #include "io/image_file.hpp"
 #include "io/model_file.hpp"
@@ -43,18 +44,25 @@ stack::NormalMapLayer layer_of(const io::ModelMaterial& material) {
   return layer;
 }
 
-/// Reads each file once and names the place in the document when it cannot be read.
-void load_image(const stack::FileName& name, const fs::path& document, Scene& scene) {
-  if (scene.images.contains(name.path)) return;
+/// Runs read(); an InputError also says which line of the document named the file.
+template <class Read>
+auto named_by(const fs::path& document, const stack::FileName& name, const Read& read) {
   try {
-    scene.images[name.path] = std::make_shared<image::Image>(io::read_image(name.path));
+    return read();
   } catch (const InputError& error) {
-    Fault fault = error.fault();
     if (document.empty()) throw;
+    Fault fault = error.fault();
     fault.place = "(named by " + document.filename().string() + ":" + std::to_string(name.line) + ": " +
                   name.key + ")" + (fault.place.empty() ? "" : " " + fault.place);
     throw InputError(fault);
   }
+}
+
+/// Reads each file once.
+void load_image(const stack::FileName& name, const fs::path& document, Scene& scene) {
+  if (scene.images.contains(name.path)) return;
+  scene.images[name.path] = named_by(
+      document, name, [&] { return std::make_shared<const image::Image>(io::read_image(name.path)); });
 }
 
 fs::path beside(const fs::path& document, const fs::path& file) {
@@ -153,23 +161,16 @@ void check_uv_sets(const Scene& scene, const fs::path& document, const fs::path&
   }
 }
 
-std::string lower_extension(const fs::path& file) {
-  std::string text = file.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c);
-  });
-  return text;
-}
-
 Scene load_document(const fs::path& file) {
   const std::vector<std::byte> bytes = io::read_file(file);
   stack::Stack document =
       stack::parse_stack({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
   Scene scene;
+  scene.source = file;
   fs::path model;
   if (document.mesh) {
     model = beside(file, document.mesh->path);
-    take_model(io::read_model(model), scene);
+    take_model(named_by(file, *document.mesh, [&] { return io::read_model(model); }), scene);
   } else {
     Scene demo = demo_scene();
     scene.meshes = std::move(demo.meshes);
@@ -192,8 +193,17 @@ Scene load_document(const fs::path& file) {
 } // namespace
 
 Scene load_scene(const fs::path& file) {
-  if (lower_extension(file) == ".json") return load_document(file);
+  const std::string extension = io::lower_extension(file);
+  const bool folder = fs::is_directory(file);
+  if (folder || (extension != ".json" && extension != ".gltf" && extension != ".glb" && extension != ".obj"))
+    throw InputError({.file = file,
+                      .problem = folder              ? "is a folder"
+                                 : extension.empty() ? "has no extension"
+                                                     : "\"" + extension + "\" is not a scene's extension",
+                      .remedy = "expected a stack document (.json) or a model (.gltf, .glb, .obj)"});
+  if (extension == ".json") return load_document(file);
   Scene scene;
+  scene.source = file;
   take_model(io::read_model(file), scene);
   check_uv_sets(scene, file, file);
   return scene;

@@ -32,6 +32,7 @@ struct Object {
 /// A stack with all it names, loaded. Every index is in range, every image a layer names is there,
 /// every mesh has the UV sets that its materials' layers read.
 struct Scene {
+  std::filesystem::path source{}; ///< document or model it came from, for messages; empty: the demo
   std::vector<mesh::TriangleMesh> meshes{};
   std::vector<Object> objects{};
   std::vector<Material> materials{}; ///< what TriangleMesh::material_of_triangle indexes
@@ -53,7 +54,7 @@ struct Scene {
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file);
 
 /// The built-in scene: a torus with two UV sets under a stack of four layers in two passes. Needs no
-/// file; the same bytes everywhere.
+/// file.
 [[nodiscard]] Scene demo_scene();
 
 } // namespace surfgrad::scene

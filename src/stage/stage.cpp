@@ -1,5 +1,8 @@
 #include "stage/stage.hpp"
 
+#include "diagnostic/error.hpp"
+#include "mesh/tangent_signs.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,26 +25,57 @@ BackFaces back_faces_of(stack::BackFaces mode) {
 
 } // namespace
 
-mat3<double> linear_part(const mat4<double>& m) {
-  return {{m.x.x, m.x.y, m.x.z}, {m.y.x, m.y.y, m.y.z}, {m.z.x, m.z.y, m.z.z}};
+namespace {
+
+/// The job's own texture coordinates must be there; those of layers were checked with the scene.
+void require_uv_sets(const scene::Scene& scene, const std::vector<raster::UvSlot>& needed) {
+  for (const raster::UvSlot& slot : needed)
+    for (const scene::Object& object : scene.objects)
+      if (static_cast<std::size_t>(slot.uv_set) >= scene.meshes[object.mesh].uv_sets.size())
+        throw InputError({.file = scene.source,
+                          .place = "mesh \"" + object.name + "\"",
+                          .problem = fmt::format("has no texture coordinates (UV set {})", slot.uv_set),
+                          .remedy = "unwrap it first"});
 }
+
+void warn_about_tangents(const scene::Scene& scene, const std::vector<raster::UvSlot>& slots,
+                         const Report& report) {
+  for (const scene::Object& object : scene.objects)
+    for (const raster::UvSlot& slot : slots) {
+      const mesh::TriangleMesh& mesh = scene.meshes[object.mesh];
+      const auto set = static_cast<std::size_t>(slot.uv_set);
+      if (!slot.tangents || set >= mesh.tangent_spaces.size() || mesh.tangent_spaces[set].corners.empty())
+        continue;
+      const std::size_t count = mesh::contradicting_triangles(mesh, set);
+      if (count > 0)
+        report.warn(
+            fmt::format("mesh \"{}\": the given tangents of {} of {} triangles contradict the texture "
+                        "coordinates: relief is inverted along one axis there (basis \"derived\" is not)",
+                        object.name, count, mesh.triangles.size()));
+    }
+}
+
+} // namespace
 
 Stage::Stage(const scene::Scene& scene, vec3<double> origin, const std::vector<raster::UvSlot>& needed,
              const Report& report)
     : scene_(scene), slots_(needed) {
+  require_uv_sets(scene, needed);
   for (const scene::Material& material : scene.materials) engine::collect_uv_slots(material.layers, slots_);
   engine::MapLibrary maps(
-      [&](const std::filesystem::path& file) -> const image::Image& { return scene.image(file); });
+      [&](const std::filesystem::path& file) -> const image::Image& { return scene.image(file); },
+      scene.source);
   for (const scene::Material& material : scene.materials)
     programs_.push_back(engine::compile(material.layers, slots_, maps));
   for (const auto& odd : maps.inward_texels())
     report.warn(fmt::format(
         "{}: {} of {} texels point into the surface (z <= 0); they are read as if z were positive",
         odd.file.string(), odd.count, odd.of));
+  warn_about_tangents(scene, slots_, report);
   for (const scene::Object& object : scene.objects) {
     surfaces_.push_back(
         raster::place_mesh(scene.meshes[object.mesh], object.world_from_object, origin, slots_));
-    world_from_object_.push_back(linear_part(object.world_from_object));
+    world_from_object_.push_back(raster::linear_part(object.world_from_object));
   }
 }
 

@@ -17,7 +17,8 @@ class Stage {
   /// origin  world position that fragments are relative to (the camera; zero for bakes)
   /// needed  texture coordinates that the job reads besides those of the layers
   /// Warns about normal maps with texels that point into the surface. The scene must outlive the
-  /// stage. Throws InputError where the scene needs more UV sets than a fragment carries.
+  /// stage. Throws InputError where a mesh lacks a needed UV set or the scene needs more of them than a
+  /// fragment carries.
   Stage(const scene::Scene& scene, vec3<double> origin, const std::vector<raster::UvSlot>& needed,
         const Report& report);
 
@@ -42,8 +43,5 @@ class Stage {
   std::vector<raster::Surface> surfaces_;
   std::vector<mat3<double>> world_from_object_;
 };
-
-/// Upper left 3x3 part of an affine transform.
-[[nodiscard]] mat3<double> linear_part(const mat4<double>& m);
 
 } // namespace surfgrad::stage

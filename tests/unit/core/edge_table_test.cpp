@@ -119,8 +119,15 @@ TYPED_TEST(EdgeTable, Frames) {
   E::gives("subnormal normal counts as zero", normal_of(V{E::sub, T(0), T(0)}), {0, 0, 1});
   E::gives("huge normal", normal_of(V{E::huge, T(0), T(0)}), {1, 0, 0});
   E::gives_nan("NaN normal", normal_of(V{E::nan, T(0), T(0)}));
-  E::gives("zero normal on a back face is negated",
-           flat(make_frame(E::o, E::x, E::y, false, BackFaces::mirror).normal), {0, 0, -1});
+  // The plane of E::x, E::y faces the viewer along +z.
+  const auto plane_of = [](bool front, BackFaces mode) {
+    return flat(make_frame(E::o, E::x, E::y, front, mode).normal);
+  };
+  for (const BackFaces mode : {BackFaces::same, BackFaces::mirror, BackFaces::flip})
+    E::gives("zero normal, front: towards the viewer", plane_of(true, mode), {0, 0, 1});
+  E::gives("zero normal, back, same: away", plane_of(false, BackFaces::same), {0, 0, -1});
+  E::gives("zero normal, back, mirror: towards", plane_of(false, BackFaces::mirror), {0, 0, 1});
+  E::gives("zero normal, back, flip: towards", plane_of(false, BackFaces::flip), {0, 0, 1});
   E::gives("nothing defines a normal", flat(make_frame(E::o, E::x, E::x)), {0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1});
   E::gives("no position", flat(make_frame(-E::z)), {0, 0, -1, 0, 0, 0, 0, 0, 0, 1, 1});
   E::gives("normal facing away: flip_sign turns", flat(make_frame(-E::z, E::x, E::y)),

@@ -48,7 +48,7 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
   Random random(172);
   const auto refusal = [&](int channels, const auto& ask) -> std::string {
     const image::Image image = surfgrad::test::random_image(random, 2, 2, channels);
-    MapLibrary maps([&](const std::filesystem::path&) -> const image::Image& { return image; });
+    MapLibrary maps([&](const std::filesystem::path&) -> const image::Image& { return image; }, "s.json");
     try {
       ask(maps);
     } catch (const InputError& error) {
@@ -63,9 +63,12 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
     (void)maps.slopes(use);
   };
   const auto directions = [](MapLibrary& maps) { (void)maps.directions(use_of("n.png")); };
-  EXPECT_EQ(refusal(1, slopes), "n.png: layers[1].map: has 1 channel; a normal map needs two or three");
+  EXPECT_EQ(refusal(1, slopes),
+            "n.png: (named by s.json:7: layers[1].map): has 1 channel; a normal map needs two or three");
   EXPECT_EQ(refusal(2, slopes), "");
-  EXPECT_EQ(refusal(2, xyz), "n.png: layers[1].map: has 2 channels; a normal map of x, y and z needs three");
+  EXPECT_EQ(
+      refusal(2, xyz),
+      "n.png: (named by s.json:7: layers[1].map): has 2 channels; a normal map of x, y and z needs three");
   EXPECT_EQ(refusal(3, xyz), "");
   EXPECT_NE(refusal(2, directions), "");
   EXPECT_EQ(refusal(4, directions), "");

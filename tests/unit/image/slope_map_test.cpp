@@ -135,6 +135,7 @@ TEST(ChannelMap, ReadsTheChannelAskedForOrTheNearestThatExists) {
   Image grey = make_image(1, 1, 1);
   grey.texels = {0.25f};
   Image grey_alpha = make_image(1, 1, 2);
+  grey_alpha.has_alpha = true;
   grey_alpha.texels = {0.25f, 0.5f};
   Image rgb = make_image(1, 1, 3);
   rgb.texels = {0.125f, 0.25f, 0.375f};
@@ -143,6 +144,11 @@ TEST(ChannelMap, ReadsTheChannelAskedForOrTheNearestThatExists) {
   const auto value = [](const Image& image, int channel) {
     return texel(make_channel_map(image, channel), 0, 0, 0, 0);
   };
+  Image rg = grey_alpha; // two channels of data: an R,G file
+  rg.has_alpha = false;
+  EXPECT_EQ(value(rg, 0), 0.25f);
+  EXPECT_EQ(value(rg, 1), 0.5f);
+  EXPECT_EQ(value(rg, 3), 1);
   for (const int c : {0, 1, 2}) {
     EXPECT_EQ(value(grey, c), 0.25f);
     EXPECT_EQ(value(grey_alpha, c), 0.25f);

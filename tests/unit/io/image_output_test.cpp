@@ -237,6 +237,32 @@ TEST_F(ImageOutput, SymbolicLinksSurvive) {
   EXPECT_EQ(io::read_file(folder / "target"), content);
 }
 
+TEST_F(ImageOutput, LinksToNothingYetAreFollowed) {
+  fs::create_directory(folder / "deep");
+  fs::create_symlink("deep/second", folder / "first");
+  fs::create_symlink("../target", folder / "deep/second");
+  const std::vector<std::byte> content(3, std::byte{7});
+  io::write_file(folder / "first", content);
+  EXPECT_TRUE(fs::is_symlink(folder / "first"));
+  EXPECT_TRUE(fs::is_symlink(folder / "deep/second"));
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "target")));
+  EXPECT_EQ(io::read_file(folder / "target"), content);
+
+  fs::create_symlink("circle", folder / "circle");
+  EXPECT_THROW(io::write_file(folder / "circle", content), MachineError);
+  EXPECT_TRUE(fs::is_symlink(folder / "circle"));
+}
+
+TEST_F(ImageOutput, ReplacedFilesKeepTheirPermissions) {
+  const fs::path file = folder / "a.bin";
+  io::write_file(file, {});
+  for (const unsigned bits : {0600u, 0664u, 0755u}) {
+    fs::permissions(file, fs::perms(bits));
+    io::write_file(file, std::vector<std::byte>(3, std::byte{7}));
+    EXPECT_EQ(static_cast<unsigned>(fs::status(file).permissions()), bits);
+  }
+}
+
 TEST_F(ImageOutput, RelativeNamesGoToTheCurrentFolder) {
   const fs::path before = fs::current_path();
   fs::current_path(folder);

@@ -7,6 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <surfgrad/gradient.hpp>
+#include <surfgrad/resolve.hpp>
+
+#include <cmath>
+
 namespace surfgrad::raster {
 namespace {
 
@@ -87,6 +92,29 @@ TEST(Fragment, WithoutAnInterpolatedNormalTakesTheTrianglesOutwardOne) {
       EXPECT_LT(max_abs(normalize_or_zero(f.normal) - whole.normals[0]), 1e-12);
       EXPECT_FALSE(make_fragment(whole, 0, planes, 5, 5).normal_is_absent);
     }
+}
+
+TEST(Fragment, WithoutAnInterpolatedNormalIsBumpedAlikeAtEveryScale) {
+  const vec2<double> deriv{0.3, -0.4};
+  const auto perturbed = [&](double scale) {
+    mesh::TriangleMesh mesh = test::plane(1);
+    const mat4<double> placement = test::affine(test::scaling({scale, scale, scale}));
+    const Surface whole = place_mesh(mesh, placement, {0, 0, 0}, {{0, true}});
+    for (vec3<float>& n : mesh.normals) n = {0, 0, 0};
+    const Surface bare = place_mesh(mesh, placement, {0, 0, 0}, {{0, false}});
+    const TrianglePlanes planes = uv_planes(bare, 0, 0, 10, 10);
+    const UvFragment<double> uv = make_fragment(whole, 0, planes, 5, 5).uvs[0];
+    const Fragment<double> f = make_fragment(bare, 0, planes, 5, 5);
+    EXPECT_TRUE(f.normal_is_absent);
+    const TangentFrame<double> basis = mikktspace_basis(f.normal, uv.tangent, uv.sign);
+    return resolve_normal(make_frame(f.normal, f.dp_dx, f.dp_dy),
+                          from_tbn(deriv, basis.tangent, basis.bitangent));
+  };
+  // Unit tangents and normal: the length of the gradient is that of the slope. 1e-7 for tangents in
+  // float, which the three scales share.
+  EXPECT_NEAR(perturbed(1).z, 1 / std::sqrt(1 + dot(deriv, deriv)), 1e-7);
+  for (const double scale : {0.01, 100.0}) // 1e-14: dozens of roundings of double
+    EXPECT_LT(max_abs(perturbed(scale) - perturbed(1)), 1e-14) << scale;
 }
 
 } // namespace
