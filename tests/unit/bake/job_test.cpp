@@ -7,6 +7,8 @@
 #include "support/scenes.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 #include <tbb/global_control.h>
 
 #include <string>
@@ -98,6 +100,16 @@ TEST(BakeJob, CountsVanishedNormalsAndTangents) {
   const Baked untwisted = bake(scene, {20, 20, Space::tangent});
   EXPECT_EQ(untwisted.singular, 400);
   EXPECT_EQ(untwisted.degenerate, 400);
+}
+
+TEST(BakeJob, CountsTrianglesThatTheMapDoesNotReach) {
+  scene::Scene scene = two_layers();
+  EXPECT_EQ(bake(scene, {8, 8, Space::tangent}).outside, 0);
+  const std::uint32_t vertex = scene.meshes[0].triangles[0][0];
+  scene.meshes[0].uv_sets[0][vertex].x += 3;
+  std::int64_t sharing = 0;
+  for (const auto& t : scene.meshes[0].triangles) sharing += std::count(t.begin(), t.end(), vertex);
+  EXPECT_EQ(bake(scene, {8, 8, Space::tangent}).outside, sharing);
 }
 
 TEST(BakeJob, CountsNormalsBelowTheSurface) {

@@ -3,6 +3,7 @@
 #include "stage/stage.hpp"
 
 #include "diagnostic/error.hpp"
+#include "mesh/mikktspace.hpp"
 #include "support/images.hpp"
 #include "support/scenes.hpp"
 
@@ -81,6 +82,36 @@ TEST(Stage, RefusesMoreTextureCoordinatesThanAFragmentCarries) {
     scene.materials[0].layers.emplace_back(layer);
   }
   EXPECT_THROW(Stage(scene, {0, 0, 0}, {}, {}), InputError);
+}
+
+TEST(Stage, RefusesAJobWhoseTextureCoordinatesAMeshLacks) {
+  scene::Scene scene = two_materials();
+  scene.source = "bare.obj";
+  for (scene::Material& material : scene.materials) material.layers.clear();
+  scene.meshes[0].uv_sets.clear();
+  EXPECT_NO_THROW(Stage(scene, {0, 0, 0}, {}, {}));
+  try {
+    const Stage stage(scene, {0, 0, 0}, {{0, false}}, {});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("bare.obj: mesh ")) << error.what();
+  }
+}
+
+TEST(Stage, WarnsWhereGivenTangentsContradictTheTextureCoordinates) {
+  scene::Scene scene = two_materials();
+  scene.materials[0].layers = scene.materials[1].layers;
+  mesh::TriangleMesh& mesh = scene.meshes[0];
+  mesh.tangent_spaces = {mesh::generate_tangents(mesh, 0)};
+  const auto warnings = [&] {
+    std::vector<std::string> said;
+    const Stage stage(scene, {0, 0, 0}, {}, {{}, [&](std::string_view text) { said.emplace_back(text); }});
+    return said;
+  };
+  EXPECT_TRUE(warnings().empty());
+  for (vec4<float>& corner : mesh.tangent_spaces[0].corners) corner.w = -corner.w;
+  ASSERT_EQ(warnings().size(), 1u);
+  EXPECT_NE(warnings()[0].find("2 of 2 triangles contradict"), std::string::npos) << warnings()[0];
 }
 
 } // namespace
