@@ -1,7 +1,6 @@
 #include "bake/bake.hpp"
 #include "commands.hpp"
 #include "console.hpp"
-#include "io/image_file.hpp"
 #include "options.hpp"
 
 #include <fmt/format.h>
@@ -23,10 +22,16 @@ void warn_about(const bake::Baked& baked, Console& console) {
   const auto warn = [&](std::int64_t count, const char* what) {
     if (count > 0) console.warn(fmt::format("{} of {} covered texels {}", count, baked.covered, what));
   };
+  if (baked.outside > 0)
+    console.warn(
+        fmt::format("{} triangles reach beyond the unit square of UV set 0; what lies there is not baked",
+                    baked.outside));
   warn(baked.overlapping, "lie under more than one triangle; the first triangle is baked");
   warn(baked.singular, "have a tangent frame that cannot be inverted; they are flat in the map");
   warn(baked.clamped, "point below the surface; their steepest slope is baked");
-  warn(baked.degenerate, "had no normal or tangent frame; layers that need one are flat there");
+  warn(baked.degenerate,
+       "had no interpolated normal or no tangent frame; the triangle's normal stands in, layers without "
+       "a frame add nothing");
 }
 
 void run(BakeCommand& command) {
@@ -35,22 +40,22 @@ void run(BakeCommand& command) {
   command.job.height = size.height;
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.depth, image::Depth::unorm16);
-  io::check_image_output(output, depth);
+  check_output(output, depth);
   Console console("baking", command.common.quiet);
   on_threads(command.common.threads, [&] {
     const scene::Scene scene = open_scene(command.common);
     const bake::Baked baked = bake::bake(scene, command.job, console.report());
-    io::write_image(output, baked.map, depth);
+    write_unless_interrupted(output, baked.map, depth);
     if (command.common.json) {
-      console.say(nlohmann::json({{"output", output.string()},
-                                  {"width", size.width},
-                                  {"height", size.height},
-                                  {"covered_texels", baked.covered},
-                                  {"overlapping_texels", baked.overlapping},
-                                  {"singular_texels", baked.singular},
-                                  {"clamped_texels", baked.clamped},
-                                  {"degenerate_texels", baked.degenerate}})
-                      .dump());
+      console.say_json({{"output", output.string()},
+                        {"width", size.width},
+                        {"height", size.height},
+                        {"covered_texels", baked.covered},
+                        {"triangles_outside", baked.outside},
+                        {"overlapping_texels", baked.overlapping},
+                        {"singular_texels", baked.singular},
+                        {"clamped_texels", baked.clamped},
+                        {"degenerate_texels", baked.degenerate}});
       return;
     }
     warn_about(baked, console);

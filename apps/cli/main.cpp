@@ -1,11 +1,12 @@
 #include "commands.hpp"
+#include "console.hpp"
 #include "diagnostic/error.hpp"
+#include "interrupt.hpp"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
+#include <string>
 
 namespace {
 
@@ -14,9 +15,35 @@ constexpr int input_is_wrong = 1;
 constexpr int usage_is_wrong = 2;
 constexpr int machine_lacks_something = 3;
 
-int complain(int status, const char* what) {
-  fmt::print(stderr, "surfgrad: {}\n", what);
+int failed(int status, std::string_view what) {
+  surfgrad::cli::complain(what);
   return status;
+}
+
+/// Help, the version, or what is wrong with the command line.
+int explain(const CLI::App& program, const CLI::ParseError& error) {
+  if (program.exit(error) != 0) return usage_is_wrong;
+  if (!std::cout.flush()) return failed(machine_lacks_something, "standard output: cannot write");
+  return 0;
+}
+
+int run(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return explain(program, error);
+  } catch (const surfgrad::InputError& error) {
+    return failed(input_is_wrong, error.what());
+  } catch (const surfgrad::MachineError& error) {
+    return failed(machine_lacks_something, error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(machine_lacks_something, "not enough memory");
+  } catch (const surfgrad::Cancelled&) {
+    return machine_lacks_something; // main ends the program by the signal that asked for it
+  } catch (const std::exception& error) {
+    return failed(machine_lacks_something, std::string("internal error: ") + error.what());
+  }
 }
 
 } // namespace
@@ -27,21 +54,12 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", "surfgrad " SURFGRAD_VERSION);
   program.require_subcommand(1);
   program.footer("surfgrad VERB --help explains a verb.\n"
-                 "Exit status: 0 done, 1 the input is wrong, 2 usage, 3 the machine lacks something.");
+                 "Exit status: 0 done, 1 the input is wrong, 2 usage, 3 the machine lacks something\n"
+                 "or an internal error. An interrupt leaves either the whole output or none.");
   surfgrad::cli::add_render_command(program);
   surfgrad::cli::add_bake_command(program);
-  try {
-    program.parse(argc, argv);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : usage_is_wrong;
-  } catch (const surfgrad::InputError& error) {
-    return complain(input_is_wrong, error.what());
-  } catch (const surfgrad::MachineError& error) {
-    return complain(machine_lacks_something, error.what());
-  } catch (const std::bad_alloc&) {
-    return complain(machine_lacks_something, "not enough memory");
-  } catch (const std::exception& error) {
-    return complain(machine_lacks_something, error.what());
-  }
+  surfgrad::cli::note_interrupts();
+  const int status = run(program, argc, argv);
+  if (surfgrad::cli::interrupted()) surfgrad::cli::end_by_interrupt();
+  return status;
 }

@@ -1,31 +1,32 @@
 #include "options.hpp"
 
+#include "io/extension.hpp"
+
+#include "interrupt.hpp"
+#include "io/image_file.hpp"
+
 #include <charconv>
 
 namespace surfgrad::cli {
 namespace {
 
-constexpr int largest_side = 16384; // what a float picture of 4 GiB holds
+// A square of this side has 2^28 pixels, the most that images read and pictures rendered may have.
+constexpr int largest_side = 16384;
 
 bool parse_side(std::string_view text, int& side) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
   return error == std::errc() && end == text.data() + text.size() && side >= 1 && side <= largest_side;
 }
 
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string text = file.extension().string();
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 } // namespace
 
 void add_common_options(CLI::App& verb, CommonOptions& options) {
   verb.add_option("SCENE", options.scene,
-                  "stack document (.json) or model (.gltf, .glb, .obj); without it the built-in demo");
+                  "stack document (.json) or model (.gltf, .glb, .obj); without it the built-in demo")
+      ->check(not_empty());
   verb.add_option("-o,--output", options.output, "file to write; the extension decides the format")
       ->required()
+      ->check(not_empty())
       ->type_name("FILE");
   verb.add_option("--size", options.size, "side in pixels, or WIDTHxHEIGHT")
       ->capture_default_str()
@@ -33,8 +34,8 @@ void add_common_options(CLI::App& verb, CommonOptions& options) {
   verb.add_option("--threads", options.threads, "threads to use; 0 means all")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  verb.add_flag("-q,--quiet", options.quiet, "no progress bar, warnings or summary");
-  verb.add_flag("--json", options.json, "summary as one line of JSON");
+  verb.add_flag("-q,--quiet", options.quiet, "no progress bar, warnings or summary (but --json)");
+  verb.add_flag("--json", options.json, "summary as one line of JSON, even with --quiet");
 }
 
 Size parse_size(const std::string& text) {
@@ -52,7 +53,25 @@ Size parse_size(const std::string& text) {
 }
 
 scene::Scene open_scene(const CommonOptions& options) {
-  return options.scene.empty() ? scene::demo_scene() : scene::load_scene(options.scene);
+  scene::Scene scene = options.scene.empty() ? scene::demo_scene() : scene::load_scene(options.scene);
+  stop_if_interrupted();
+  return scene;
+}
+
+void write_unless_interrupted(const std::filesystem::path& output, const image::Image& image,
+                              image::Depth depth) {
+  const Unbroken whole_file;
+  stop_if_interrupted();
+  io::write_image(output, image, depth);
+}
+
+void check_output(const std::filesystem::path& output, image::Depth depth) {
+  const Unbroken probe;
+  io::check_image_output(output, depth);
+}
+
+CLI::Validator not_empty() {
+  return CLI::Validator([](std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
 }
 
 image::Depth depth_for(const std::filesystem::path& output, const std::string& depth,
@@ -61,7 +80,7 @@ image::Depth depth_for(const std::filesystem::path& output, const std::string& d
   if (depth == "16") return image::Depth::unorm16;
   if (depth == "half") return image::Depth::half;
   if (depth == "float") return image::Depth::float32;
-  return lower_extension(output) == ".exr" ? image::Depth::float32 : integer_default;
+  return io::lower_extension(output) == ".exr" ? image::Depth::float32 : integer_default;
 }
 
 } // namespace surfgrad::cli

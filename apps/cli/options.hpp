@@ -36,6 +36,17 @@ struct Size {
 [[nodiscard]] image::Depth depth_for(const std::filesystem::path& output, const std::string& depth,
                                      image::Depth integer_default);
 
+/// Encodes and writes the whole image or nothing. Throws Cancelled where an interrupt came before the
+/// writing, else as io::write_image does. The extension and depth have passed io::check_image_output.
+void write_unless_interrupted(const std::filesystem::path& output, const image::Image& image,
+                              image::Depth depth);
+
+/// io::check_image_output, with nothing left behind by an interrupt.
+void check_output(const std::filesystem::path& output, image::Depth depth);
+
+/// Refuses the empty text that an unset shell variable leaves.
+[[nodiscard]] CLI::Validator not_empty();
+
 /// Runs work on the number of threads asked for.
 template <class Work>
 void on_threads(int threads, const Work& work);

@@ -7,19 +7,29 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace surfgrad::cli {
 namespace {
+
+using View = std::pair<double, double>; // yaw and pitch in degrees
 
 struct RenderCommand {
   CommonOptions common;
   std::string depth;
   render::Options job;
-  std::vector<double> view;
+  std::optional<View> view;
   std::string environment;
 };
+
+void require_angles(const View& view) {
+  if (!std::isfinite(view.first) || !(std::abs(view.second) <= 90))
+    throw CLI::ValidationError("--view", "yaw must be a finite number and pitch one from -90 to 90");
+}
 
 void run(RenderCommand& command) {
   const Size size = parse_size(command.common.size);
@@ -27,13 +37,14 @@ void run(RenderCommand& command) {
   command.job.height = size.height;
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.depth, image::Depth::unorm8);
-  io::check_image_output(output, depth);
+  render::check_options(command.job);
+  check_output(output, depth);
   Console console("rendering", command.common.quiet);
   on_threads(command.common.threads, [&] {
     scene::Scene scene = open_scene(command.common);
-    if (!command.view.empty()) {
-      scene.camera.yaw_deg = command.view[0];
-      scene.camera.pitch_deg = command.view[1];
+    if (command.view) {
+      scene.camera.yaw_deg = command.view->first;
+      scene.camera.pitch_deg = command.view->second;
       scene.camera.position.reset();
       scene.camera.target.reset();
     }
@@ -41,22 +52,22 @@ void run(RenderCommand& command) {
       scene.environment = std::make_shared<image::Image>(io::read_image(command.environment));
     const render::Picture picture = render::render(scene, command.job, console.report());
     const bool raw = depth == image::Depth::half || depth == image::Depth::float32;
-    io::write_image(output, raw ? picture.image : render::encoded_for_display(picture, command.job.aov),
-                    depth);
+    write_unless_interrupted(
+        output, raw ? picture.image : render::encoded_for_display(picture, command.job.aov), depth);
     if (command.common.json) {
-      console.say(nlohmann::json({{"output", output.string()},
-                                  {"width", size.width},
-                                  {"height", size.height},
-                                  {"covered_samples", picture.covered},
-                                  {"degenerate_samples", picture.degenerate}})
-                      .dump());
+      console.say_json({{"output", output.string()},
+                        {"width", size.width},
+                        {"height", size.height},
+                        {"covered_samples", picture.covered},
+                        {"degenerate_samples", picture.degenerate}});
       return;
     }
     if (picture.covered == 0) console.warn("the camera sees no surface");
     if (picture.degenerate > 0)
-      console.warn(
-          fmt::format("{} of {} samples had no normal or tangent frame; layers that need one are flat there",
-                      picture.degenerate, picture.covered));
+      console.warn(fmt::format(
+          "{} of {} samples had no interpolated normal or no tangent frame; the triangle's normal "
+          "stands in, layers without a frame add nothing",
+          picture.degenerate, picture.covered));
     console.say(fmt::format("wrote {} ({}x{})", output.string(), size.width, size.height));
   });
 }
@@ -83,14 +94,21 @@ void add_render_command(CLI::App& program) {
       ->transform(CLI::CheckedTransformer(aovs).description(""))
       ->type_name("NAME")
       ->option_text("NAME");
-  verb.add_option("--samples", command->job.samples, "samples along each side of a pixel")
+  verb.add_option("--samples", command->job.samples,
+                  "samples along each side of a pixel, for beauty; other pictures take one")
       ->capture_default_str()
       ->check(CLI::Range(1, 16));
-  verb.add_option("--view", command->view, "look from yaw and pitch in degrees instead of the scene's camera")
-      ->expected(2)
+  verb.add_option_function<View>(
+          "--view",
+          [command](const View& view) {
+            require_angles(view);
+            command->view = view;
+          },
+          "look from yaw and pitch in degrees instead of the scene's camera")
       ->type_name("YAW PITCH");
   verb.add_option("--environment", command->environment,
                   "light with this panorama (latitude and longitude: .hdr, .exr, ...) instead of the sky")
+      ->check(not_empty())
       ->type_name("FILE");
   verb.add_option("--depth", command->depth,
                   "8, 16, half or float (default: 8 for PNG and TIFF, float for EXR)")

@@ -1,10 +1,13 @@
 #include "render/render.hpp"
 
+#include "diagnostic/error.hpp"
 #include "engine/rows.hpp"
 #include "raster/visibility.hpp"
 #include "render/camera.hpp"
 #include "render/shading.hpp"
 #include "stage/stage.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
@@ -62,11 +65,35 @@ vec3<double> background(double height) {
   return {grey, grey, 1.08 * grey};
 }
 
+/// Raw values are not averaged: they take one sample a pixel.
+int samples_along_a_side(const Options& options) {
+  return options.aov == Aov::beauty ? std::max(1, options.samples) : 1;
+}
+
 } // namespace
 
+void check_options(const Options& options) {
+  const double pixels = double(options.width) * options.height;
+  const int k = samples_along_a_side(options);
+  const double samples = pixels * k * k; // doubles: the product may pass 2^63
+  const double most = static_cast<double>(most_samples);
+  if (samples <= most) return;
+  const double shrink = std::sqrt(most / samples);
+  const auto side = [&](int length) { return std::max(1, static_cast<int>(length * shrink)); };
+  std::string fits =
+      fmt::format("--size {}x{} with --samples {}", side(options.width), side(options.height), k);
+  if (pixels <= most)
+    fits += fmt::format(" or --samples {} at this size", static_cast<int>(std::sqrt(most / pixels)));
+  throw InputError(
+      {.place = fmt::format("--size {}x{} with --samples {}", options.width, options.height, k),
+       .problem = fmt::format("takes {:.0f} samples, at most {} are possible", samples, most_samples),
+       .remedy = "what fits is " + fits});
+}
+
 Picture render(const scene::Scene& scene, const Options& options, const Report& report) {
+  check_options(options);
   const bool beauty = options.aov == Aov::beauty;
-  const int k = beauty ? std::max(1, options.samples) : 1;
+  const int k = samples_along_a_side(options);
   const int width = options.width * k;
   const int height = options.height * k;
   const Pinhole camera = place_camera(scene, width, height);

@@ -31,8 +31,16 @@ struct Picture {
   std::int64_t degenerate = 0; ///< of these, samples where a normal or a tangent frame did not exist
 };
 
-/// Renders a scene with the reference engine. Warns (through report) about normal maps with texels
-/// that point into the surface. Same bytes for any number of threads.
+/// Samples a picture may take: visibility holds a triangle and a depth, 16 bytes, for each of them
+/// at once, so this many are 4 GiB. They are one sample a pixel of a 16384x16384 picture.
+inline constexpr std::int64_t most_samples = std::int64_t{1} << 28;
+
+/// Throws InputError, which says what would do, where a picture takes more than most_samples.
+/// render does so too: this is for before the scene is loaded.
+void check_options(const Options& options);
+
+/// Renders a scene with the reference engine. Throws as check_options does. Warns (through report) about
+/// normal maps with texels that point into the surface. Same bytes for any number of threads.
 [[nodiscard]] Picture render(const scene::Scene& scene, const Options& options, const Report& report = {});
 
 /// Raw values of an auxiliary picture brought into [0, 1] for integer files: vectors as v / 2 + 1/2,

@@ -67,6 +67,7 @@ std::vector<BadInput> bad_inputs() {
       {"missing_scene", "none.json", "", {"none.json"}},
       {"missing_model", "none.glb", "", {"none.glb"}},
       {"unknown_extension", "scene.fbx", "Kaydara", {"scene.fbx", ".obj"}},
+      {"folder_as_a_scene", ".", "", {"is a folder", ".json"}},
       {"wrong_type", "scene.glb", "this is no GLB file at all", {"scene.glb"}},
       {"truncated_json", "s.json", "{ \"surfgrad\": 1,\n \"mesh\": \"m.obj\",\n", {"s.json:2"}},
       {"unknown_key",
@@ -74,7 +75,7 @@ std::vector<BadInput> bad_inputs() {
        "{ \"surfgrad\": 1,\n \"mesch\": \"m.obj\" }",
        {"s.json:2", "mesch", "did you mean \"mesh\""}},
       {"newer_version", "s.json", "{ \"surfgrad\": 2 }", {"s.json:1", "newer"}},
-      {"missing_mesh", "s.json", stack(map, "gone.obj"), {"gone.obj"}},
+      {"missing_mesh", "s.json", stack(map, "gone.obj"), {"gone.obj", "s.json:2"}},
       {"missing_map",
        "s.json",
        stack(R"({ "type": "normal_map", "map": "gone.png" })"),
@@ -132,11 +133,22 @@ INSTANTIATE_TEST_SUITE_P(Inputs, BadInputs, testing::ValuesIn(bad_inputs()),
 
 void PrintTo(const BadInput& bad, std::ostream* out) { *out << bad.name; }
 
+TEST(BadInputs, ShowingTextureCoordinatesThatAMeshLacksIsRefused) {
+  const Folder folder;
+  folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Outcome run =
+      run_program({"render", "bare.obj", "-o", "out.png", "--size", "8", "--aov", "uv"}, folder.path());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.error, HasSubstr("bare.obj: mesh"));
+  EXPECT_THAT(folder.files(), testing::ElementsAre("bare.obj"));
+}
+
 TEST(BadInputs, BakingAMeshWithoutTextureCoordinatesIsRefused) {
   const Folder folder;
   folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Outcome run = run_program({"bake", "bare.obj", "-o", "out.png", "--size", "8"}, folder.path());
   EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.error, HasSubstr("bare.obj: mesh"));
   EXPECT_THAT(run.error, HasSubstr("no texture coordinates"));
   EXPECT_THAT(folder.files(), testing::ElementsAre("bare.obj"));
 }

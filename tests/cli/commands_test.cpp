@@ -6,6 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
 namespace surfgrad {
 namespace {
 
@@ -26,7 +30,8 @@ TEST(Commands, VersionAndHelpSucceed) {
 
 TEST(Commands, RenderWritesThePictureAndSaysSo) {
   const Folder folder;
-  const Outcome run = run_program({"render", "-o", "a.png", "--size", "40x30", "--samples", "1"}, folder.path());
+  const Outcome run =
+      run_program({"render", "-o", "a.png", "--size", "40x30", "--samples", "1"}, folder.path());
   EXPECT_EQ(run.status, 0) << run.error;
   EXPECT_EQ(run.out, "wrote a.png (40x30)\n");
   EXPECT_THAT(run.error, IsEmpty()); // no progress bar in a pipe
@@ -48,14 +53,44 @@ TEST(Commands, BakeWritesEverySpaceAndFormat) {
   EXPECT_THAT(folder.files(), ElementsAre("n.exr", "n.png", "n.tif"));
 }
 
+/// Vectors of length one where the picture shows something, which must be a good part of it.
+void expect_unit_or_zero(const image::Image& picture) {
+  double worst = 0;
+  int seen = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const double length =
+          std::hypot(double(picture.at(x, y, 0)), double(picture.at(x, y, 1)), double(picture.at(x, y, 2)));
+      if (length == 0) continue;
+      worst = std::max(worst, std::abs(length - 1));
+      ++seen;
+    }
+  // Three components rounded to float: at most their relative rounding, 2^-24, and some for hypot.
+  EXPECT_LE(worst, 1.2e-7);
+  EXPECT_GT(seen, picture.width * picture.height / 10);
+}
+
 TEST(Commands, EveryAovIsWrittenRawAndEncoded) {
   const Folder folder;
-  for (const char* aov : {"beauty", "normal", "base_normal", "surfgrad", "uv"})
+  for (const std::string aov : {"beauty", "normal", "base_normal", "surfgrad", "uv"}) {
     for (const char* name : {"a.exr", "a.png"}) {
       const Outcome run =
           run_program({"render", "-o", name, "--aov", aov, "--size", "24", "--samples", "1"}, folder.path());
-      EXPECT_EQ(run.status, 0) << run.error;
+      ASSERT_EQ(run.status, 0) << run.error;
     }
+    const image::Image raw = io::read_image(folder.path() / "a.exr");
+    const image::Image code = io::read_image(folder.path() / "a.png");
+    ASSERT_EQ(raw.texels.size(), code.texels.size());
+    double worst = 0;
+    for (std::size_t i = 0; i < raw.texels.size(); ++i) {
+      const double v = raw.texels[i];
+      const double encoded = aov == "beauty" ? v : aov == "uv" ? v - std::floor(v) : 0.5 * v + 0.5;
+      worst = std::max(worst, std::abs(255 * std::clamp(encoded, 0.0, 1.0) - 255 * code.texels[i]));
+    }
+    // Half a code is what rounding to 8 bits costs; the rest is for float arithmetic.
+    EXPECT_LE(worst, 0.5001) << aov;
+    if (aov == "normal" || aov == "base_normal") expect_unit_or_zero(raw);
+  }
 }
 
 TEST(Commands, JsonSummaryIsOneLineForMachines) {
@@ -64,6 +99,60 @@ TEST(Commands, JsonSummaryIsOneLineForMachines) {
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.out, HasSubstr("\"covered_texels\":256"));
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
+}
+
+TEST(Commands, JsonComesQuietOrNotAndForAnyFileName) {
+  const Folder folder;
+  for (const std::string name : {"n.png", "n\xff.png"}) {
+    const Outcome run = run_program({"render", "-o", name, "--size", "8", "--json", "-q"}, folder.path());
+    EXPECT_EQ(run.status, 0) << run.error;
+    EXPECT_THAT(run.out, HasSubstr("\"width\":8"));
+  }
+  EXPECT_THAT(folder.files(), ElementsAre("n.png", "n\xff.png"));
+}
+
+TEST(Commands, FullStandardOutputIsReportedAndFullStandardErrorIsNot) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  const Folder folder;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"bake", "-o", "n.png", "--size", "8"}}) {
+    const Outcome run = run_program(arguments, folder.path(), {.out = "/dev/full"});
+    EXPECT_EQ(run.status, 3);
+    EXPECT_THAT(run.error, HasSubstr("surfgrad: standard output: cannot write"));
+  }
+  EXPECT_EQ(run_program({"bake", "none.json", "-o", "n.png"}, folder.path(), {.error = "/dev/full"}).status,
+            1);
+  EXPECT_EQ(run_program({"bake", "-o"}, folder.path(), {.error = "/dev/full"}).status, 2);
+}
+
+TEST(Commands, ViewTakesTwoAnglesAndLeavesTheSceneItsPlace) {
+  const Folder folder;
+  folder.write("s.json", R"({ "surfgrad": 1, "mesh": "m.obj", "layers": [] })");
+  folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  const auto texels = [&](std::vector<std::string> arguments) {
+    const std::vector<std::string> rest{"-o", "a.exr", "--size", "16", "--aov", "normal"};
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    const Outcome run = run_program(arguments, folder.path());
+    EXPECT_EQ(run.status, 0) << run.error;
+    return io::read_image(folder.path() / "a.exr").texels;
+  };
+  const std::vector<float> before = texels({"--view", "-30", "15", "s.json"});
+  EXPECT_EQ(before, texels({"s.json", "--view", "-30", "15"}));
+  EXPECT_NE(before, texels({"s.json", "--view", "30", "-15"}));
+}
+
+TEST(Commands, PicturesTooLargeForTheMemoryAreRefusedWithWhatFits) {
+  const Folder folder;
+  // The scene does not exist: the size is looked at first.
+  const Outcome run = run_program({"render", "none.json", "-o", "a.png", "--size", "16384"}, folder.path());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.error, HasSubstr("--size 16384x16384 with --samples 3"));
+  EXPECT_THAT(run.error, HasSubstr("--size 5461x5461 with --samples 3 or --samples 1 at this size"));
+  const Outcome raw =
+      run_program({"render", "none.json", "-o", "a.png", "--size", "16384", "--aov", "uv"}, folder.path());
+  EXPECT_THAT(raw.error, HasSubstr("none.json")); // one sample a pixel fits
+  EXPECT_THAT(folder.files(), IsEmpty());
 }
 
 TEST(Commands, ResultsDoNotDependOnTheNumberOfThreads) {
@@ -92,7 +181,15 @@ TEST(Commands, UsageErrorsExitWith2AndWriteNothing) {
                                                     {"bake", "-o", "a.png", "--space", "screen"},
                                                     {"bake", "-o", "a.png", "--depth", "12"},
                                                     {"bake", "-o", "a.png", "--threads", "-1"},
-                                                    {"bake", "one.json", "two.json", "-o", "a.png"}};
+                                                    {"bake", "one.json", "two.json", "-o", "a.png"},
+                                                    {"bake", "", "-o", "a.png"},
+                                                    {"bake", "-o", ""},
+                                                    {"render", "-o", "a.png", "--environment", ""},
+                                                    {"render", "-o", "a.png", "--view", "30"},
+                                                    {"render", "-o", "a.png", "--view", "30", "91"},
+                                                    {"render", "-o", "a.png", "--view", "30", "nan"},
+                                                    {"render", "-o", "a.png", "--view", "inf", "0"},
+                                                    {"render", "-o", "a.png", "--view", "30", "x"}};
   for (const auto& arguments : wrong) {
     const Outcome run = run_program(arguments, folder.path());
     EXPECT_EQ(run.status, 2) << testing::PrintToString(arguments) << run.error;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -22,10 +23,10 @@ std::string text_of(const std::filesystem::path& file) {
 
 } // namespace
 
-Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
-  const Folder outputs;
-  const std::string out = outputs.path() / "out";
-  const std::string error = outputs.path() / "error";
+Running::Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                 const Streams& streams)
+    : out_(streams.out.empty() ? (outputs_.path() / "out").string() : streams.out),
+      error_(streams.error.empty() ? (outputs_.path() / "error").string() : streams.error) {
   std::vector<std::string> words{SURFGRAD_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -34,21 +35,52 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::filesy
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error_.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0600);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t child = 0;
-  Outcome run;
-  if (posix_spawn(&child, SURFGRAD_PROGRAM, &actions, nullptr, argv.data(), environ) == 0) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+  // Shells start background jobs, so perhaps these tests, with interrupts ignored.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t interrupts;
+  sigemptyset(&interrupts);
+  sigaddset(&interrupts, SIGINT);
+  sigaddset(&interrupts, SIGTERM);
+  posix_spawnattr_setsigdefault(&attributes, &interrupts);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  if (posix_spawn(&child_, SURFGRAD_PROGRAM, &actions, &attributes, argv.data(), environ) != 0) child_ = 0;
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  run.out = text_of(out);
-  run.error = text_of(error);
+}
+
+void Running::send(int signal) const {
+  if (child_ > 0) kill(child_, signal);
+}
+
+bool Running::ended() const {
+  siginfo_t info{};
+  return child_ <= 0 || (waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+                         info.si_pid != 0);
+}
+
+Outcome Running::wait() {
+  Outcome run;
+  int status = 0;
+  if (child_ > 0 && waitpid(child_, &status, 0) == child_) {
+    if (WIFEXITED(status)) run.status = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) run.signal = WTERMSIG(status);
+  }
+  const auto written_here = [&](const std::string& file) {
+    return file.starts_with(outputs_.path().string()) ? text_of(file) : std::string();
+  };
+  run.out = written_here(out_);
+  run.error = written_here(error_);
   return run;
+}
+
+Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                    const Streams& streams) {
+  return Running(arguments, folder, streams).wait();
 }
 
 Folder::Folder() {

@@ -9,13 +9,11 @@ namespace surfgrad {
 
 /// What one run of the program did.
 struct Outcome {
-  int status = -1; ///< exit status; -1 if it was killed
+  int status = -1; ///< exit status; -1 if a signal ended it
+  int signal = 0;  ///< the signal that ended it, or 0
   std::string out{};
   std::string error{};
 };
-
-/// Runs build/bin/surfgrad in a folder and waits for it.
-[[nodiscard]] Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
 /// A fresh, empty folder for one test, removed with it.
 class Folder {
@@ -33,5 +31,31 @@ class Folder {
  private:
   std::filesystem::path path_;
 };
+
+/// Where a program's words go instead of a file that the outcome reads back; empty: not redirected.
+struct Streams {
+  std::string out{};
+  std::string error{};
+};
+
+/// build/bin/surfgrad at work in a folder. wait() must be called once.
+class Running {
+ public:
+  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+          const Streams& streams = {});
+  void send(int signal) const;
+  [[nodiscard]] bool ended() const;
+  [[nodiscard]] Outcome wait();
+
+ private:
+  Folder outputs_{};
+  std::string out_;
+  std::string error_;
+  int child_ = 0;
+};
+
+/// Runs build/bin/surfgrad in a folder and waits for it.
+[[nodiscard]] Outcome run_program(const std::vector<std::string>& arguments,
+                                  const std::filesystem::path& folder, const Streams& streams = {});
 
 } // namespace surfgrad
