@@ -14,7 +14,6 @@ namespace {
 
 struct BakeCommand {
   CommonOptions common;
-  std::string depth;
   bake::Options job;
 };
 
@@ -39,7 +38,7 @@ void run(BakeCommand& command) {
   command.job.width = size.width;
   command.job.height = size.height;
   const std::filesystem::path output = command.common.output;
-  const image::Depth depth = depth_for(output, command.depth, image::Depth::unorm16);
+  const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
   check_output(output, depth);
   Console console("baking", command.common.quiet);
   on_threads(command.common.threads, [&] {
@@ -74,17 +73,13 @@ void add_bake_command(CLI::App& program) {
               "  surfgrad bake -o demo_normal.png                     the built-in demo\n"
               "  surfgrad bake pirate.json -o pirate_n.png --size 2048\n"
               "  surfgrad bake pirate.json -o pirate_o.exr --space object");
-  add_common_options(verb, command->common);
+  add_common_options(verb, command->common, "16");
   const std::map<std::string, bake::Space> spaces{
       {"tangent", bake::Space::tangent}, {"object", bake::Space::object}, {"world", bake::Space::world}};
   verb.add_option("--space", command->job.space, "tangent (default), object or world")
       ->transform(CLI::CheckedTransformer(spaces).description(""))
       ->type_name("NAME")
       ->option_text("NAME");
-  verb.add_option("--depth", command->depth,
-                  "8, 16, half or float (default: 16 for PNG and TIFF, float for EXR)")
-      ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
-      ->type_name("BITS");
   verb.callback([command] { run(*command); });
 }
 

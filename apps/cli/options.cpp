@@ -20,7 +20,7 @@ bool parse_side(std::string_view text, int& side) {
 
 } // namespace
 
-void add_common_options(CLI::App& verb, CommonOptions& options) {
+void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits) {
   verb.add_option("SCENE", options.scene,
                   "stack document (.json) or model (.gltf, .glb, .obj); without it the built-in demo")
       ->check(not_empty());
@@ -31,6 +31,10 @@ void add_common_options(CLI::App& verb, CommonOptions& options) {
   verb.add_option("--size", options.size, "side in pixels, or WIDTHxHEIGHT")
       ->capture_default_str()
       ->type_name("N");
+  verb.add_option("--depth", options.depth,
+                  "8, 16, half or float (default: " + integer_bits + " for PNG and TIFF, float for EXR)")
+      ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
+      ->type_name("BITS");
   verb.add_option("--threads", options.threads, "threads to use; 0 means all")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));

@@ -15,12 +15,14 @@ struct CommonOptions {
   std::string scene; ///< empty: the built-in demo
   std::string output;
   std::string size = "1024";
-  int threads = 0; ///< 0: as many as the machine has
+  std::string depth; ///< "", "8", "16", "half" or "float"
+  int threads = 0;   ///< 0: as many as the machine has
   bool quiet = false;
   bool json = false;
 };
 
-void add_common_options(CLI::App& verb, CommonOptions& options);
+/// integer_bits is what the verb writes into PNG and TIFF unless told otherwise.
+void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits);
 
 struct Size {
   int width;

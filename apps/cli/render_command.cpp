@@ -20,7 +20,6 @@ using View = std::pair<double, double>; // yaw and pitch in degrees
 
 struct RenderCommand {
   CommonOptions common;
-  std::string depth;
   render::Options job;
   std::optional<View> view;
   std::string environment;
@@ -36,7 +35,7 @@ void run(RenderCommand& command) {
   command.job.width = size.width;
   command.job.height = size.height;
   const std::filesystem::path output = command.common.output;
-  const image::Depth depth = depth_for(output, command.depth, image::Depth::unorm8);
+  const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm8);
   render::check_options(command.job);
   check_output(output, depth);
   Console console("rendering", command.common.quiet);
@@ -81,7 +80,7 @@ void add_render_command(CLI::App& program) {
               "  surfgrad render -o demo.png                          the built-in demo\n"
               "  surfgrad render pirate.json -o pirate.png --size 2048\n"
               "  surfgrad render model.glb -o n.exr --aov normal      raw world-space normals");
-  add_common_options(verb, command->common);
+  add_common_options(verb, command->common, "8");
   const std::map<std::string, render::Aov> aovs{{"beauty", render::Aov::beauty},
                                                 {"normal", render::Aov::normal},
                                                 {"base_normal", render::Aov::base_normal},
@@ -110,10 +109,6 @@ void add_render_command(CLI::App& program) {
                   "light with this panorama (latitude and longitude: .hdr, .exr, ...) instead of the sky")
       ->check(not_empty())
       ->type_name("FILE");
-  verb.add_option("--depth", command->depth,
-                  "8, 16, half or float (default: 8 for PNG and TIFF, float for EXR)")
-      ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
-      ->type_name("BITS");
   verb.callback([command] { run(*command); });
 }
 
