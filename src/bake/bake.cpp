@@ -6,10 +6,8 @@
 #include "raster/visibility.hpp"
 #include "stage/stage.hpp"
 
-#include <surfgrad/resolve.hpp>
-
 #include <algorithm>
-#include <atomic>
+#include <mutex>
 
 namespace surfgrad::bake {
 namespace {
@@ -26,8 +24,9 @@ std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std
   return count;
 }
 
+/// Of one row: rows run in parallel and must not share a counter for every texel.
 struct Counts {
-  std::atomic<std::int64_t> covered{0}, singular{0}, clamped{0}, degenerate{0};
+  std::int64_t covered = 0, singular = 0, clamped = 0, degenerate = 0;
 };
 
 /// Composed normal of the texel (x, y) in the space asked for.
@@ -69,8 +68,9 @@ Baked bake(const scene::Scene& scene, const Options& options, const Report& repo
   const raster::VisibilityBuffer layout =
       raster::lay_out_in_uv(stage.surfaces(), slot, options.width, options.height, &baked.overlapping);
   baked.map = image::make_image(options.width, options.height, 3, image::Depth::unorm16);
-  Counts counts;
+  std::mutex adding;
   engine::for_each_row(options.height, report, [&](int y) {
+    Counts counts;
     for (int x = 0; x < options.width; ++x) {
       const raster::Visible& what = layout.at(x, y);
       const vec3<double> n = what.surface == raster::Visible::none
@@ -80,15 +80,16 @@ Baked bake(const scene::Scene& scene, const Options& options, const Report& repo
       baked.map.at(x, y, 1) = static_cast<float>(0.5 * n.y + 0.5);
       baked.map.at(x, y, 2) = static_cast<float>(0.5 * n.z + 0.5);
     }
+    const std::lock_guard<std::mutex> lock(adding);
+    baked.covered += counts.covered;
+    baked.singular += counts.singular;
+    baked.clamped += counts.clamped;
+    baked.degenerate += counts.degenerate;
   });
-  if (counts.covered == 0)
+  if (baked.covered == 0)
     throw InputError({.file = scene.source,
                       .problem = "no triangle covers a texel of the unit square of UV set 0",
                       .remedy = "check the mesh's texture coordinates, or bake at a larger size"});
-  baked.covered = counts.covered;
-  baked.singular = counts.singular;
-  baked.clamped = counts.clamped;
-  baked.degenerate = counts.degenerate;
   return baked;
 }
 

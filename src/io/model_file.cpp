@@ -6,11 +6,8 @@
 #include "io/gltf.hpp"
 #include "io/obj.hpp"
 
-#include <algorithm>
 #include <cstddef>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace surfgrad::io {

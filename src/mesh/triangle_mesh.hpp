@@ -5,6 +5,7 @@
 #include <surfgrad/vec.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -29,6 +30,11 @@ struct TriangleMesh {
   /// [set]; an absent or empty entry means: not given by the file, generate on demand.
   std::vector<TangentSpace> tangent_spaces{};
 };
+
+/// Whether the mesh came with tangents for this UV set; else they are generated on demand.
+[[nodiscard]] inline bool has_tangents(const TriangleMesh& mesh, std::size_t uv_set) {
+  return uv_set < mesh.tangent_spaces.size() && !mesh.tangent_spaces[uv_set].corners.empty();
+}
 
 /// Three a triangle. Corners are numbered in 32 bits: MachineError for a mesh that has more.
 [[nodiscard]] inline std::uint32_t corner_count(const TriangleMesh& mesh) {

@@ -12,8 +12,8 @@ vec3<double> widened(vec3<float> v) { return {v.x, v.y, v.z}; }
 std::vector<vec4<double>> placed_tangents(const mesh::TriangleMesh& mesh, int uv_set,
                                           const mat3<double>& linear, bool mirrored) {
   const auto set = static_cast<std::size_t>(uv_set);
-  const bool given = set < mesh.tangent_spaces.size() && !mesh.tangent_spaces[set].corners.empty();
-  const mesh::TangentSpace space = given ? mesh.tangent_spaces[set] : mesh::generate_tangents(mesh, set);
+  const mesh::TangentSpace space =
+      mesh::has_tangents(mesh, set) ? mesh.tangent_spaces[set] : mesh::generate_tangents(mesh, set);
   std::vector<vec4<double>> result;
   result.reserve(space.corners.size());
   for (const vec4<float>& c : space.corners) {

@@ -1,6 +1,5 @@
 #include "raster/visibility.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -83,6 +82,16 @@ void for_each_triangle_in_bands(const std::vector<Surface>& surfaces, int width,
   });
 }
 
+/// Calls visit(index of the pixel, x, y of its centre) for the pixels of the range that are covered.
+template <class Visit>
+void for_each_covered_pixel(const TrianglePlanes& planes, PixelRange range, int width, const Visit& visit) {
+  for (int y = range.y_begin; y < range.y_end; ++y)
+    for (int x = range.x_begin; x < range.x_end; ++x)
+      if (planes.covers(x + 0.5, y + 0.5))
+        visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
+              x + 0.5, y + 0.5);
+}
+
 } // namespace
 
 TrianglePlanes screen_planes(const Surface& surface, std::uint32_t triangle,
@@ -108,16 +117,12 @@ VisibilityBuffer see_from_camera(const std::vector<Surface>& surfaces, const mat
       surfaces, width, height, corners,
       [&](std::uint32_t s, std::uint32_t t, const TrianglePlanes& planes, PixelRange range) {
         if (skip && skip(s, t, planes.counter_clockwise() != surfaces[s].mirrored)) return;
-        for (int y = range.y_begin; y < range.y_end; ++y)
-          for (int x = range.x_begin; x < range.x_end; ++x) {
-            if (!planes.covers(x + 0.5, y + 0.5)) continue;
-            const double inverse_w = planes.inverse_w(x + 0.5, y + 0.5);
-            const std::size_t i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            if (inverse_w * near > 1 || !(inverse_w > nearest[i])) continue;
-            nearest[i] = inverse_w;
-            buffer.pixels[i] = {s, t};
-          }
+        for_each_covered_pixel(planes, range, width, [&](std::size_t i, double x, double y) {
+          const double inverse_w = planes.inverse_w(x, y);
+          if (inverse_w * near > 1 || !(inverse_w > nearest[i])) return;
+          nearest[i] = inverse_w;
+          buffer.pixels[i] = {s, t};
+        });
       });
   return buffer;
 }
@@ -134,15 +139,11 @@ VisibilityBuffer lay_out_in_uv(const std::vector<Surface>& surfaces, std::size_t
   for_each_triangle_in_bands(
       surfaces, width, height, corners,
       [&](std::uint32_t s, std::uint32_t t, const TrianglePlanes& planes, PixelRange range) {
-        for (int y = range.y_begin; y < range.y_end; ++y)
-          for (int x = range.x_begin; x < range.x_end; ++x) {
-            if (!planes.covers(x + 0.5, y + 0.5)) continue;
-            const std::size_t i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            if (covered[i] == 0) buffer.pixels[i] = {s, t};
-            if (covered[i] == 1) ++overlaps;
-            if (covered[i] < 2) ++covered[i];
-          }
+        for_each_covered_pixel(planes, range, width, [&](std::size_t i, double, double) {
+          if (covered[i] == 0) buffer.pixels[i] = {s, t};
+          if (covered[i] == 1) ++overlaps;
+          if (covered[i] < 2) ++covered[i];
+        });
       });
   if (overlapping != nullptr) *overlapping = overlaps;
   return buffer;

@@ -6,7 +6,6 @@
 #include "io/image_file.hpp"
 #include "io/model_file.hpp"
 
-#include <algorithm>
 #include <numbers>
 #include <set>
 #include <type_traits>

@@ -23,10 +23,6 @@ BackFaces back_faces_of(stack::BackFaces mode) {
   return BackFaces::same;
 }
 
-} // namespace
-
-namespace {
-
 /// The job's own texture coordinates must be there; those of layers were checked with the scene.
 void require_uv_sets(const scene::Scene& scene, const std::vector<raster::UvSlot>& needed) {
   for (const raster::UvSlot& slot : needed)
@@ -44,8 +40,7 @@ void warn_about_tangents(const scene::Scene& scene, const std::vector<raster::Uv
     for (const raster::UvSlot& slot : slots) {
       const mesh::TriangleMesh& mesh = scene.meshes[object.mesh];
       const auto set = static_cast<std::size_t>(slot.uv_set);
-      if (!slot.tangents || set >= mesh.tangent_spaces.size() || mesh.tangent_spaces[set].corners.empty())
-        continue;
+      if (!slot.tangents || !mesh::has_tangents(mesh, set)) continue;
       const std::size_t count = mesh::contradicting_triangles(mesh, set);
       if (count > 0)
         report.warn(
