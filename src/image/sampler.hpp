@@ -39,8 +39,8 @@ struct Taps {
   T fraction;
 };
 
-/// i brought into [0, n): by one period where the coordinate repeats, else to the border. The upper
-/// limit also holds for NaN coordinates, whose index is 0.
+/// i brought into [0, n): by one period, by one reflection or to the border. Right for -n <= i < 2 n
+/// and, where n is 1, for any i. The upper limit also holds for NaN coordinates, whose index is 0.
 template <LaneScalar T>
 [[nodiscard]] index_t<T> wrap_index(index_t<T> i, index_t<T> n, Wrap wrap) {
   const index_t<T> zero = index_constant<T>(0);
@@ -48,6 +48,9 @@ template <LaneScalar T>
   if (wrap == Wrap::repeat) {
     i = select(i < zero, index_t<T>(i + n), i);
     i = select(last < i, index_t<T>(i - n), i);
+  } else if (wrap == Wrap::mirror) {
+    i = select(i < zero, index_t<T>(zero - i - index_constant<T>(1)), i);
+    i = select(last < i, index_t<T>(last + n - i), i);
   }
   i = select(i < zero, zero, i);
   return select(last < i, last, i);
