@@ -15,6 +15,7 @@
 #include <surfgrad/resolve.hpp>
 #include <surfgrad/scalar.hpp>
 #include <surfgrad/screen.hpp>
+#include <surfgrad/trigonometry.hpp>
 #include <surfgrad/triplanar.hpp>
 #include <surfgrad/vec.hpp>
 #include <surfgrad/worley.hpp>

@@ -2,9 +2,10 @@
 
 #include "diagnostic/error.hpp"
 
+#include <surfgrad/trigonometry.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <type_traits>
 
@@ -51,12 +52,8 @@ image::NormalChannels channels_of(stack::Channels channels) {
 /// texel grid.
 vec2<double> rotation_of(double degrees) {
   const double turn = std::remainder(degrees, 360.0); // exact, within half a turn
-  if (turn == 0) return {1, 0};
-  if (turn == 90) return {0, 1};
-  if (turn == -90) return {0, -1};
-  if (std::abs(turn) == 180) return {-1, 0};
-  const double radians = turn * std::numbers::pi / 180.0;
-  return {std::cos(radians), std::sin(radians)};
+  const SinCos<double> r = sin_cos_turns(turn / 360);
+  return {r.cos, r.sin};
 }
 
 int slot_of(int uv, const std::vector<raster::UvSlot>& slots) {
