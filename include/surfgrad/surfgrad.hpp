@@ -7,6 +7,7 @@
 #include <surfgrad/fractal.hpp>
 #include <surfgrad/frame.hpp>
 #include <surfgrad/gradient.hpp>
+#include <surfgrad/hex_tiles.hpp>
 #include <surfgrad/noise.hpp>
 #include <surfgrad/noise_hash.hpp>
 #include <surfgrad/parallax.hpp>
