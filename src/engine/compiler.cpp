@@ -1,7 +1,6 @@
 #include "engine/compiler.hpp"
 
-#include <cmath>
-#include <numbers>
+#include <surfgrad/trigonometry.hpp>
 
 namespace surfgrad::engine {
 namespace {
@@ -34,12 +33,8 @@ image::Filter filter_of(stack::Filter filter) {
 /// texel grid.
 vec2<double> rotation_of(double degrees) {
   const double turn = std::remainder(degrees, 360.0); // exact, within half a turn
-  if (turn == 0) return {1, 0};
-  if (turn == 90) return {0, 1};
-  if (turn == -90) return {0, -1};
-  if (std::abs(turn) == 180) return {-1, 0};
-  const double radians = turn * std::numbers::pi / 180.0;
-  return {std::cos(radians), std::sin(radians)};
+  const SinCos<double> r = sin_cos_turns(turn / 360);
+  return {r.cos, r.sin};
 }
 
 } // namespace
