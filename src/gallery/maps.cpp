@@ -11,6 +11,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace surfgrad::gallery {
@@ -53,9 +54,9 @@ Image studs() {
     const double u = 2 * scene::fraction(rows * s) - 1;
     const double v = 2 * scene::fraction(rows * t) - 1;
     const double r2 = u * u + v * v;
-    // A paraboloid of slope 2.4 at its foot, rounded where it meets the ground.
-    const double dome = 0.72 - r2;
-    return dome <= -0.1 ? 0.0 : 0.5 / (2 * rows) * 1.4 * (dome + std::sqrt(dome * dome + 0.004));
+    // A paraboloid, 2.2 steep at its foot, that leaves the ground smoothly.
+    const double dome = std::max(0.75 - r2, 0.0);
+    return 1.3 / (2 * rows) * dome * dome / (dome + 0.06);
   });
 }
 

@@ -10,8 +10,8 @@ std::vector<Figure> back_face_figures(const std::shared_ptr<Maps>& maps) {
   const auto panel = [maps](stack::BackFaces mode) {
     return [maps, mode] {
       scene::Scene scene = scene_of(scroll());
-      look_from(scene, 20, 24);
-      light_from(scene, {0.3, 0.8, 0.8});
+      look_from(scene, -8, 36);
+      light_from(scene, {-0.4, 0.9, 0.6});
       scene.materials[0].back_faces = mode;
       scene.materials[0].layers = {normal_map(scene, *maps, "studs", {.tile = {1, 1}}, 0.8)};
       return scene;

@@ -67,7 +67,7 @@ Figure spaces(const Shared& maps) {
   const auto panel = [maps](const char* map, bool as_object, stack::Space space) {
     return [maps, map, as_object, space] {
       scene::Scene scene = scene_of(rock_mesh());
-      look_from(scene, 40, 22);
+      look_from(scene, 40, 8);
       light_from(scene, {-0.9, 0.7, 0.6});
       if (!as_object) {
         scene.materials[0].layers = {normal_map(scene, *maps, map)};

@@ -22,25 +22,28 @@ std::function<scene::Scene()> ball_under(const Shared& maps, std::vector<const c
 }
 
 Figure blending(const Shared& maps) {
-  return {"blending",
-          "Two detail maps, blended five ways",
-          "Steep domes and fine ripples that cross them. The older ways turn two normal maps into one and "
-          "need both on one texture coordinate; surface gradients are added on the surface. Look at the "
-          "flanks of the domes and at the ripples on their steepest part.",
-          {{"linear", "linear", "Mean of the vectors: domes and ripples both lose half their height.",
-            Way::older, "surface-gradient", ball_under(maps, {"linear"})},
-           {"udn", "UDN", "Over the first map's z alone: the ripples fade on the ground between the domes.",
-            Way::older, "surface-gradient", ball_under(maps, {"udn"})},
-           {"whiteout", "whiteout",
-            "Over the product of both z: the flanks grow steeper than the two maps say, and dark.",
-            Way::older, "surface-gradient", ball_under(maps, {"whiteout"})},
-           {"reoriented", "RNM",
-            "The ripples are turned with the dome they lie on. That is a second surface on top of the first, "
-            "and the order matters: see post-resolve bumps for the same wish.",
-            Way::older, "surface-gradient", ball_under(maps, {"reoriented"})},
-           {"surface-gradient", "surface gradient",
-            "The sum of both heights: ripples of one size everywhere, domes as high as they were.",
-            Way::right, "", ball_under(maps, {"studs", "ripples"})}}};
+  return {
+      "blending",
+      "Two detail maps, blended five ways",
+      "Steep domes and fine ripples that cross them. The older ways turn two normal maps into one and "
+      "need both on one texture coordinate; surface gradients are added on the surface. Look at the "
+      "flanks of the domes and at the ripples on their steepest part.",
+      {{"linear", "linear", "Mean of the vectors: domes and ripples both lose half their height.", Way::older,
+        "surface-gradient", ball_under(maps, {"linear"})},
+       {"udn", "UDN",
+        "Over the first map's z alone: the ripples are too weak on the ground and too strong on the flanks.",
+        Way::older, "surface-gradient", ball_under(maps, {"udn"})},
+       {"whiteout", "whiteout",
+        "Over the product of both z: on the flanks domes and ripples steepen each other beyond what either "
+        "map says.",
+        Way::older, "surface-gradient", ball_under(maps, {"whiteout"})},
+       {"reoriented", "RNM",
+        "The ripples are turned with the dome they lie on. That is a second surface on top of the first, "
+        "and the order matters: see post-resolve bumps for the same wish.",
+        Way::older, "surface-gradient", ball_under(maps, {"reoriented"})},
+       {"surface-gradient", "surface gradient",
+        "The sum of both heights: ripples of one size everywhere, domes as high as they were.", Way::right,
+        "", ball_under(maps, {"studs", "ripples"})}}};
 }
 
 Figure blending_flat(const Shared& maps) {

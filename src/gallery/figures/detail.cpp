@@ -11,7 +11,7 @@ using Shared = std::shared_ptr<Maps>;
 
 scene::Scene rock_scene(std::vector<stack::Layer> (*layers)(scene::Scene&, Maps&), const Shared& maps) {
   scene::Scene scene = scene_of(rock_mesh());
-  look_from(scene, 40, 22);
+  look_from(scene, 40, 8);
   light_from(scene, {-0.9, 0.7, 0.6});
   scene.materials[0].layers = layers(scene, *maps);
   return scene;
@@ -46,10 +46,10 @@ Figure uv_sets(const Shared& maps) {
   const auto panel = [maps](const Laid& laid) {
     return [maps, laid] {
       scene::Scene scene = scene_of(rock_mesh());
-      look_from(scene, 40, 22);
+      look_from(scene, 40, 8);
       light_from(scene, {-0.9, 0.7, 0.6});
-      scene.materials[0].layers = {normal_map(scene, *maps, "rock", {}, 0.6),
-                                   normal_map(scene, *maps, "weave", laid, 0.9)};
+      scene.materials[0].layers = {normal_map(scene, *maps, "rock", {}, 0.5),
+                                   normal_map(scene, *maps, "plates", laid)};
       return scene;
     };
   };
@@ -58,9 +58,9 @@ Figure uv_sets(const Shared& maps) {
           "Where a renderer offers one tangent space, a detail map must lie on the unwrap that the baked map "
           "uses. A layer that derives its own frame can use any texture coordinate.",
           {{"unwrap", "detail on UV set 0, the unwrap",
-            "The weave breaks off where two charts meet, and runs another way on the other side.", Way::older,
+            "The courses break off where two charts meet, and run another way on the other side.", Way::older,
             "tiling", panel({.uv = 0, .tile = {6, 4}, .basis = stack::Basis::mikktspace})},
-           {"tiling", "detail on UV set 1, made for tiling", "One weave around the whole rock.", Way::right,
+           {"tiling", "detail on UV set 1, made for tiling", "Courses run around the whole rock.", Way::right,
             "", panel({.uv = 1, .tile = {8, 8}, .basis = stack::Basis::derived})}}};
 }
 

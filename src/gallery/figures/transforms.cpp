@@ -42,46 +42,60 @@ mesh::TriangleMesh scaled_carelessly(mesh::TriangleMesh mesh, vec3<double> scale
   return mesh;
 }
 
-scene::Scene shown(scene::Scene scene, Maps& maps) {
-  look_from(scene, 0, 42);
-  light_from(scene, {-0.7, 0.9, 0.3});
-  scene.materials[0].layers = {normal_map(scene, maps, "plates", {.tile = {4, 2}})};
-  return scene;
+mesh::TriangleMesh torus() { return scene::demo_scene().meshes[0]; }
+
+using Layers = std::vector<stack::Layer> (*)(scene::Scene&, Maps&);
+
+/// The torus under some layers, scaled as it should be or by hand.
+std::function<scene::Scene()> torus_scaled(const Shared& maps, Layers layers, vec3<double> scale,
+                                           bool carelessly = false) {
+  return [=] {
+    scene::Scene scene = scene_of(carelessly ? scaled_carelessly(torus(), scale) : torus());
+    if (!carelessly) scene.objects[0].world_from_object = affine(scaling(scale));
+    look_from(scene, 0, 42);
+    light_from(scene, {-0.7, 0.9, 0.3});
+    scene.materials[0].layers = layers(scene, *maps);
+    return scene;
+  };
 }
 
-mesh::TriangleMesh torus() { return scene::demo_scene().meshes[0]; }
+std::vector<stack::Layer> plates(scene::Scene& scene, Maps& maps) {
+  return {normal_map(scene, maps, "plates", {.tile = {4, 2}})};
+}
+
+std::vector<stack::Layer> domes(scene::Scene& scene, Maps& maps) {
+  return {normal_map(scene, maps, "studs", {.tile = {3, 1}}, 0.7),
+          normal_map(scene, maps, "ripples", {.tile = {2, 1}}, 0.25)};
+}
 
 } // namespace
 
 std::vector<Figure> transform_figures(const Shared& maps) {
-  const auto right = [maps](vec3<double> scale) {
-    return [maps, scale] {
-      scene::Scene scene = scene_of(torus());
-      scene.objects[0].world_from_object = affine(scaling(scale));
-      return shown(std::move(scene), *maps);
-    };
-  };
-  const auto wrong = [maps](vec3<double> scale) {
-    return [maps, scale] { return shown(scene_of(scaled_carelessly(torus(), scale)), *maps); };
-  };
+  const vec3<double> plain{1, 1, 1};
   const vec3<double> flat{1, 0.4, 1};
   const vec3<double> mirrored{-1, 1, 1};
-  return {{"transforms",
-           "Objects scaled unevenly and mirrored",
-           "A torus under riveted plates. Normals go through the cofactors of the object's transform, "
-           "tangents through the transform itself, and a mirroring turns the handedness of the frame.",
-           {{"plain", "as it is", "Rivets and plates are raised, the sun stands at the upper left.",
-             Way::choice, "", right({1, 1, 1})},
-            {"flattened", "flattened to two fifths", "The ring's top faces up and is evenly lit.", Way::right,
-             "", right(flat)},
-            {"flattened-wrong", "flattened, normals multiplied as positions are",
-             "Normals lean sideways: the shape looks rounder than its outline, the light sits too low.",
-             Way::wrong, "flattened", wrong(flat)},
-            {"mirrored", "mirrored", "The plain picture with left and right exchanged, under the same sun.",
-             Way::right, "", right(mirrored)},
-            {"mirrored-wrong", "mirrored, handedness kept",
-             "Along one direction the relief is inverted: rivets are dents on one pair of sides.", Way::wrong,
-             "mirrored", wrong(mirrored)}}}};
+  return {{"scaled",
+           "An object scaled unevenly",
+           "A torus under riveted plates. Its normals go through the cofactors of the object's transform, "
+           "its tangents through the transform itself.",
+           {{"plain", "as it is", "A round tube, lit from the upper left.", Way::choice, "",
+             torus_scaled(maps, plates, plain)},
+            {"right", "flattened to two fifths", "The top is nearly level and evenly lit; the rim is sharp.",
+             Way::right, "", torus_scaled(maps, plates, flat)},
+            {"wrong", "flattened, normals multiplied as positions are",
+             "Normals lean outwards: the flat ring is shaded as if it were a steep hollow.", Way::wrong,
+             "right", torus_scaled(maps, plates, flat, true)}}},
+          {"mirrored",
+           "An object mirrored",
+           "A torus with domes and slanting ripples, mirrored left to right under the same sun. A mirroring "
+           "transform also turns the handedness of the tangent frame.",
+           {{"plain", "as it is", "Domes are raised, ripples fall to the right.", Way::choice, "",
+             torus_scaled(maps, domes, plain)},
+            {"right", "mirrored", "Domes are raised and lit as before; ripples climb to the right.",
+             Way::right, "", torus_scaled(maps, domes, mirrored)},
+            {"wrong", "mirrored, handedness kept",
+             "Relief is inverted along the tube's girth: domes are lit from below.", Way::wrong, "right",
+             torus_scaled(maps, domes, mirrored, true)}}}};
 }
 
 } // namespace surfgrad::gallery
