@@ -72,11 +72,12 @@ Figure model_figure(const fs::path& folder, const Report& report) {
     const std::string id = id_of(file, taken);
     const std::string name = file.filename().string();
     figure.panels.push_back({id, name, "With its normal maps.", Way::choice, "", [scene] { return *scene; }});
-    figure.panels.push_back({"without-" + id, name, "The mesh without them.", Way::choice, "", [scene] {
-                               scene::Scene bare = *scene;
-                               for (scene::Material& material : bare.materials) material.layers.clear();
-                               return bare;
-                             }});
+    figure.panels.push_back(
+        {"without-" + id, name + ", bare", "The mesh without them.", Way::choice, "", [scene] {
+           scene::Scene bare = *scene;
+           for (scene::Material& material : bare.materials) material.layers.clear();
+           return bare;
+         }});
   }
   if (figure.panels.empty())
     throw InputError({.file = folder,
