@@ -58,8 +58,8 @@ Figure bases(const Shared& maps) {
        {"derived", "derived per fragment, projected and signed",
         "The same picture without any vertex tangents.", Way::right, "", panel(stack::Basis::derived, false)},
        {"careless", "derived without projection and sign",
-        "On the mirrored half the shading no longer follows one sun: relief is inverted along one axis. "
-        "On both halves single triangles stand out.",
+        "On the mirrored half relief is inverted along the ring: domes are lit as dents are. The missing "
+        "projection is the lesser fault; it tilts the frame a little from triangle to triangle.",
         Way::wrong, "derived", panel(stack::Basis::mikktspace, true)}}};
 }
 
