@@ -160,8 +160,8 @@ struct Crossing {
 ///
 /// It ends, whatever the heights are: a step forward crosses a line of the lattice that the ray, being still
 /// above `end`, has before it, and no line is crossed twice. So there are at most |way.x| + |way.y| + 4
-/// steps forward. Each raises the order by at most one, so that there are at most as many steps into a node,
-/// and those from the first one: see most_visits.
+/// steps forward. Each raises the order of the node by at most one, and the first order is 0, so that there
+/// are at most as many steps into a node: see most_visits.
 template <LaneScalar T>
 [[nodiscard]] Crossing<T> first_crossing(const HeightField& field, const Ray<T>& ray, T end,
                                          mask_t<T> active) {
@@ -194,8 +194,8 @@ template <LaneScalar T>
   for (; any(searching); ++result.visits) {
     const Span<T> x = span_of(ray.x, cell.x, size);
     const Span<T> y = span_of(ray.y, cell.y, size);
-    // Height at which the ray leaves the span. Rising with the border, so that a cell's way lies within
-    // that of the nodes around it in floating point too.
+    // Height at which the ray leaves the span. Rounding keeps the order of borders, so that a cell's way lies
+    // within that of the nodes around it in floating point too.
     const auto leaves_at = [&](const RayAxis<T>& axis, const Span<T>& span) {
       const T border = select(zero < axis.way, span.low, span.high);
       return select(axis.inverse_way == zero, never, (border - axis.start) * axis.inverse_way);
@@ -235,8 +235,8 @@ template <LaneScalar T>
   return result;
 }
 
-/// Bound of Crossing::visits for a ray that covers this many texels along each axis on a map that is at most
-/// `texels` wide and high: two for each step forward, and one for the last.
+/// Bound of Crossing::visits for a ray that covers this many texels along each axis: two for each step
+/// forward, and the last.
 [[nodiscard]] constexpr long most_visits(double way_x, double way_y) {
   return 2 * (static_cast<long>(way_x) + static_cast<long>(way_y) + 4) + 1;
 }
@@ -271,10 +271,10 @@ template <LaneScalar T>
   const auto axis = [&](T s, T d, T n, Wrap wrap) {
     if (wrap == Wrap::repeat) s = s - floor(s);
     if (wrap == Wrap::mirror) s = s - constant<T>(2) * floor(constant<T>(0.5) * s);
-    // Only a clamped ray can be farther out; what it meets there is the border's texel anyway.
-    const T farthest = T(static_cast<value_t<T>>(beyond_cells / 2));
-    const T start = min(max(s * n - constant<T>(0.5), -farthest), farthest);
     const T way = d * n;
+    // A clamped ray from farther out meets nothing but the border's texel, and so it does from here.
+    const T out = abs(way) + constant<T>(2);
+    const T start = min(max(s * n - constant<T>(0.5), -out), n + n + out);
     return RayAxis<T>{start, way, reciprocal_or_zero(way), n, wrap};
   };
   return {{level, axis(st.x, dst.x, count.x, wraps.s), axis(st.y, dst.y, count.y, wraps.t)}, dst};
@@ -294,9 +294,8 @@ template <LaneScalar T>
 /// degenerate  zero dst gives the height at st. A ray that covers more than march_most_texels texels of
 ///             the level is shortened to that. NaN in dst counts as 0, NaN in st as some coordinate for the
 ///             heights, NaN lod as 0.
-/// error   in height, against the bilinear surface over the coordinate returned: 8 eps, and 4 eps a texel of
-///         the texture coordinate (within its period) and of dst, along each axis. A graze that is shallower
-///         may be missed.
+/// error   in height, against the bilinear surface over st + h * dst: 8 eps, and 4 eps a texel of st (within
+///         its period) and of dst, along each axis. A graze that is shallower may be missed.
 /// source  own; semantics of march_parallax (Mikkelsen 2019, section 2.6)
 template <LaneScalar T>
 [[nodiscard]] ParallaxHit<T> march(const HeightField& field, Wraps wraps, vec2<T> st, vec2<T> dst, T lod,

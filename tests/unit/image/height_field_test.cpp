@@ -212,7 +212,14 @@ TYPED_TEST(HeightMarch, MeetsTheSurfaceAndNothingBeforeIt) {
       const int level = random.integer(field.map.level_count);
       const T lod = static_cast<T>(level + random.uniform(-0.49, 0.49));
       const vec2<double> d = way(random, 30);
-      const vec2<T> st{static_cast<T>(coordinate(random, width)), static_cast<T>(coordinate(random, height))};
+      vec2<double> at{coordinate(random, width), coordinate(random, height)};
+      if (random.integer(3) == 0) {
+        // Enters a cell just above the surface, which may fall away from there and rise again.
+        const double over = random.magnitude(1e-8, 1e-3);
+        at.x = (random.integer(width) + 0.5) / width;
+        at = at - (Truth{field.map, 0, wrap, at, {0, 0}}.above_ray(0) + over) * d;
+      }
+      const vec2<T> st{static_cast<T>(at.x), static_cast<T>(at.y)};
       const vec2<T> dst{static_cast<T>(d.x), static_cast<T>(d.y)};
       const ParallaxHit<T> hit = march<T>(field, wrap, st, dst, lod, true);
       ASSERT_TRUE(hit.hit);
@@ -430,6 +437,23 @@ TYPED_TEST(HeightMarch, SeesTheLightExactlyWhereTheWayIsFree) {
   std::printf("  lit %ld, dark %ld, within rounding %ld\n", lit, dark, undecided);
   EXPECT_GT(lit, 1000);
   EXPECT_GT(dark, 1000);
+}
+
+TYPED_TEST(HeightMarch, FarOutsideAClampedMapOnlyTheBorderCounts) {
+  using T = TypeParam;
+  Image image = make_image(4, 4, 1, Depth::float32);
+  for (int x = 0; x < 4; ++x) image.at(x, 2, 0) = x == 3 ? 0.75f : 1.0f;
+  const HeightField field = make_height_field(make_channel_map(image, 0));
+  const Wraps wrap{Wrap::clamp, Wrap::repeat};
+  for (const T s : {T(1.5), T(1e3), T(1e9)}) {
+    // Along t, below the border's ridge of 0.75 at t = 0.625.
+    const vec2<T> st{s, T(0.125)}, dst{T(0), T(0.5)};
+    const auto hit = march<T>(field, wrap, st, {T(0), T(1)}, T(0), true);
+    // 0.75 * (1 - (0.125 + h - 0.625) / 0.25) = h; all but exact in these numbers.
+    EXPECT_NEAR(hit.height, 0.5625, 1e-6);
+    EXPECT_EQ(visible<T>(field, wrap, st, T(0), dst, T(0), true), T(1));
+    EXPECT_EQ(visible<T>(field, wrap, st, T(0), {T(0), T(1)}, T(0), true), T(0));
+  }
 }
 
 TYPED_TEST(HeightMarch, ASurfaceDoesNotShadeItself) {
