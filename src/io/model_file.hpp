@@ -2,7 +2,9 @@
 
 #include "io/model.hpp"
 
+#include <cstddef>
 #include <filesystem>
+#include <vector>
 
 namespace surfgrad::io {
 
@@ -24,5 +26,33 @@ namespace surfgrad::io {
 ///
 /// errors  InputError names the file, the accessor or line, and what would be right.
 [[nodiscard]] Model read_model(const std::filesystem::path& file);
+
+/// Formats that can be written: the two forms of glTF 2.0.
+enum class ModelFormat { glb, gltf };
+
+/// The model as a file in memory; `gltf` holds its buffer as base64. It keeps every mesh with its
+/// vertices in their order, every object with its name and transform (sheared ones too, as they are), the
+/// names of the materials and whether they are double-sided. Images are not written, nor references
+/// to them: a material arrives without its normal texture, for a stack document to dress it by name.
+///
+/// Texture coordinates become (u, 1 - t); read again they are within 2^-23 * max(1, |t|) of what they were,
+/// all else is the same bit for bit. A mesh of several materials is one of several primitives.
+/// Tangents are written where the mesh has them for UV set 0 (the format has room for no others): a
+/// vertex whose triangles disagree about its tangent is doubled, others follow behind the last.
+/// Names that are not UTF-8 get U+FFFD in place of the bytes that are wrong.
+///
+/// errors  InputError for vertices or transforms that are not finite (named) and for a file above 4 GiB
+///         (glb) or 1 GiB (gltf); MachineError where memory runs out; std::invalid_argument for a
+///         model that breaks its own promises.
+[[nodiscard]] std::vector<std::byte> encode_model(const Model& model, ModelFormat format);
+
+/// Encodes and writes whole or not at all; the extension decides: .glb or .gltf.
+///
+/// errors  InputError for another extension; as encode_model and write_file
+void write_model(const std::filesystem::path& file, const Model& model);
+
+/// What write_model would refuse before it has a model: extension, missing or unwritable folder.
+/// Call it before long work. Throws as write_model does.
+void check_model_output(const std::filesystem::path& file);
 
 } // namespace surfgrad::io
