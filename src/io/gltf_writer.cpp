@@ -34,7 +34,7 @@ constexpr std::size_t most_binary_bytes = std::numeric_limits<std::uint32_t>::ma
 constexpr std::size_t most_text_bytes = std::size_t{1} << 30;
 
 // What a node without a matrix has.
-const std::vector<double> identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+constexpr std::array<double, 16> identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 // Any unit vector: for vertices that no triangle uses, the format wants a tangent all the same.
 constexpr vec4<float> unused_tangent{1, 0, 0, 1};
@@ -133,7 +133,7 @@ class Writer {
     const auto is_finite = [](double number) { return std::isfinite(number); };
     if (!std::ranges::all_of(node.matrix, is_finite))
       fail(*file_, "object \"" + node.name + "\"", "its transform is not finite", "expected finite numbers");
-    if (node.matrix == identity) node.matrix.clear();
+    if (std::ranges::equal(node.matrix, identity)) node.matrix.clear();
   }
 
   void add_mesh(const mesh::TriangleMesh& mesh) {

@@ -36,7 +36,7 @@ std::vector<std::byte> encode(const Model& model, ModelFormat format, const std:
 
 } // namespace
 
-Model read_model(const std::filesystem::path& file) {
+Model read_model(const std::filesystem::path& file, const ModelOptions& options) {
   const std::string extension = lower_extension(file);
   if (extension != ".gltf" && extension != ".glb" && extension != ".obj")
     throw InputError{{.file = file,
@@ -45,8 +45,12 @@ Model read_model(const std::filesystem::path& file) {
                       .remedy = "expected .gltf, .glb or .obj"}};
   const std::vector<std::byte> bytes = read_file(file);
   if (bytes.empty()) throw InputError{{.file = file, .problem = "is empty", .remedy = "expected a model"}};
-  if (extension == ".obj") return read_obj(file, bytes);
-  return read_gltf(file, bytes);
+  if (extension != ".obj") return read_gltf(file, bytes, options.morph_weights);
+  if (!options.morph_weights.empty())
+    throw InputError{{.file = file,
+                      .problem = "has no morph targets: the format knows none",
+                      .remedy = "leave out their weights or convert the model to glTF"}};
+  return read_obj(file, bytes);
 }
 
 std::vector<std::byte> encode_model(const Model& model, ModelFormat format) {

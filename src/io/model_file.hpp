@@ -8,6 +8,13 @@
 
 namespace surfgrad::io {
 
+/// What a reader of models may be told.
+struct ModelOptions {
+  /// Weight i goes to morph target i of every mesh that has one, in place of the file's; targets beyond
+  /// the list keep theirs. Finite, of any sign; no more than the mesh with most targets has.
+  std::vector<double> morph_weights{};
+};
+
 /// Reads a glTF 2.0 model (.gltf, .glb) or a Wavefront OBJ. The content decides between the two
 /// forms of glTF, the file's extension about OBJ, which has no mark of its own.
 ///
@@ -16,7 +23,9 @@ namespace surfgrad::io {
 ///       coordinates become (u, 1 - v) and KHR_texture_transform follows; TANGENT is kept with its w
 ///       as the tangent space of the UV set that the normal texture uses, else of the first. Missing
 ///       normals become flat ones (and TANGENT is dropped, as the format asks); missing materials
-///       `default`. Skins, morph targets and animations are ignored: the mesh stands as modelled.
+///       `default`. Morph targets are applied to positions, normals and TANGENT with the weights of
+///       the options, else of the node, else of the mesh; objects of one mesh with different weights get
+///       meshes of their own. Skins and animations are ignored: the mesh stands as modelled.
 ///       Only normal textures' images are read, none outside the model's folder.
 /// OBJ   One mesh, one object. Polygons become fans around their first corner; corners are welded by
 ///       (v, vt, vn). Corners without vn get angle-weighted smooth normals over the positions. A UV
@@ -25,7 +34,7 @@ namespace surfgrad::io {
 ///       format knows none; .mtl files are not read.
 ///
 /// errors  InputError names the file, the accessor or line, and what would be right.
-[[nodiscard]] Model read_model(const std::filesystem::path& file);
+[[nodiscard]] Model read_model(const std::filesystem::path& file, const ModelOptions& options = {});
 
 /// Formats that can be written: the two forms of glTF 2.0.
 enum class ModelFormat { glb, gltf };
