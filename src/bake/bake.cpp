@@ -61,7 +61,7 @@ vec3<double> texel_normal(const stage::Stage& stage, const scene::Scene& scene, 
 } // namespace
 
 Baked bake(const scene::Scene& scene, const Options& options, const Report& report) {
-  const stage::Stage stage(scene, {0, 0, 0}, {{0, options.space == Space::tangent}}, report);
+  const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report);
   const std::size_t slot = stage.slot_of(0);
   Baked baked;
   baked.outside = triangles_outside(stage.surfaces(), slot);

@@ -2,20 +2,15 @@
 
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
-#include "image/image.hpp"
+#include "engine/layers/resolve.hpp"
+#include "engine/map_library.hpp"
 #include "raster/surface.hpp"
 #include "stack/stack.hpp"
 
-#include <functional>
-#include <map>
-#include <memory>
 #include <variant>
 #include <vector>
 
 namespace surfgrad::engine {
-
-/// Ends a pass.
-struct Resolve {};
 
 /// The layers of one material, ready to run: maps loaded, numbers folded.
 struct Program {
@@ -25,37 +20,6 @@ struct Program {
 /// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the
 /// vertex frame. Appends to `slots`; throws InputError when a scene needs more than max_uv_slots.
 void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raster::UvSlot>& slots);
-
-/// Turns images into sampled maps, each combination once, and counts what was odd about them.
-class MapLibrary {
- public:
-  /// find returns the image of a file named in a layer; it stays alive as long as the library.
-  /// document is what messages say named the files; may be empty.
-  explicit MapLibrary(std::function<const image::Image&(const std::filesystem::path&)> find,
-                      std::filesystem::path document = {})
-      : find_(std::move(find)), document_(std::move(document)) {}
-
-  /// These throw InputError where the image has too few channels.
-  std::shared_ptr<const image::Map> slopes(const stack::TangentMap& use);
-  std::shared_ptr<const image::Map> directions(const stack::Map& use);
-  std::shared_ptr<const image::Map> channel(const stack::Mask& use);
-
-  /// A normal map with texels that point into the surface (z <= 0), which no height field has.
-  struct InwardTexels {
-    std::filesystem::path file;
-    std::int64_t count;
-    std::int64_t of;
-  };
-  [[nodiscard]] const std::vector<InwardTexels>& inward_texels() const { return inward_; }
-
- private:
-  void require_channels(const image::Image& image, int least, const stack::Map& use, const char* what) const;
-
-  std::function<const image::Image&(const std::filesystem::path&)> find_;
-  std::filesystem::path document_;
-  std::map<std::string, std::shared_ptr<const image::Map>> maps_;
-  std::vector<InwardTexels> inward_;
-};
 
 /// Compiles the layers of one material for surfaces that carry `slots`.
 [[nodiscard]] Program compile(const std::vector<stack::Layer>& layers,

@@ -3,8 +3,8 @@
 namespace surfgrad::engine {
 
 Composition<double> compose_reference(const Program& program, const raster::Fragment<double>& fragment,
-                                      BackFaces back_faces, const mat3<double>& world_from_object) {
-  return compose(program, fragment, back_faces, world_from_object);
+                                      BackFaces back_faces, const Placement& placement) {
+  return compose(program, fragment, back_faces, placement);
 }
 
 } // namespace surfgrad::engine

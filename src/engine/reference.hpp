@@ -8,7 +8,6 @@ namespace surfgrad::engine {
 /// tested against.
 [[nodiscard]] Composition<double> compose_reference(const Program& program,
                                                     const raster::Fragment<double>& fragment,
-                                                    BackFaces back_faces,
-                                                    const mat3<double>& world_from_object);
+                                                    BackFaces back_faces, const Placement& placement);
 
 } // namespace surfgrad::engine

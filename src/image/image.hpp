@@ -18,13 +18,20 @@ struct Image {
   int height = 0;
   int channels = 0;            ///< 1 grey, 2 rg or grey+alpha, 3 rgb, 4 rgba
   Depth depth = Depth::unorm8; ///< precision of the source file
-  bool has_alpha = false;        ///< the last channel is opacity: 2 is grey+alpha, else two data channels
+  bool has_alpha = false;      ///< the last channel is opacity: 2 is grey+alpha, else two data channels
   std::vector<float> texels{}; ///< width * height * channels, row 0 at the bottom
 
   [[nodiscard]] std::size_t index(int x, int y, int channel = 0) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
                static_cast<std::size_t>(channels) +
            static_cast<std::size_t>(channel);
+  }
+  /// The channel that a request for r, g, b or a (0 to 3) reads: the last colour channel where the image
+  /// lacks it; -1 for an alpha that it lacks, which reads as 1.
+  [[nodiscard]] int source_of(int channel) const {
+    const int colors = has_alpha ? channels - 1 : channels;
+    if (channel == 3) return has_alpha ? channels - 1 : channels == 4 ? 3 : -1;
+    return channel < colors ? channel : colors - 1;
   }
   [[nodiscard]] float& at(int x, int y, int channel) { return texels[index(x, y, channel)]; }
   [[nodiscard]] float at(int x, int y, int channel) const { return texels[index(x, y, channel)]; }

@@ -1,72 +1,14 @@
 #include "image/map.hpp"
 
+#include "image/pyramid.hpp"
+
 #include <surfgrad/derivative.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace surfgrad::image {
 namespace {
-
-using Texels = std::vector<float>;
-
-/// Texels of the next lower level along one axis: the average over each texel's exact footprint, so
-/// that odd sizes neither shift nor lose energy.
-struct Footprint {
-  int first;
-  std::vector<double> weights; // sum to 1
-};
-
-std::vector<Footprint> footprints(int from, int to) {
-  std::vector<Footprint> result;
-  const double scale = static_cast<double>(from) / to;
-  for (int i = 0; i < to; ++i) {
-    const double low = i * scale;
-    const double high = (i + 1) * scale;
-    Footprint f{static_cast<int>(low), {}};
-    for (int j = f.first; j < from && j < high; ++j)
-      f.weights.push_back((std::min<double>(j + 1, high) - std::max<double>(j, low)) / scale);
-    result.push_back(std::move(f));
-  }
-  return result;
-}
-
-Texels halve(const Texels& source, int width, int height, int to_width, int to_height, int components) {
-  const auto columns = footprints(width, to_width);
-  const auto rows = footprints(height, to_height);
-  Texels result(static_cast<std::size_t>(to_width) * to_height * components);
-  for (int y = 0; y < to_height; ++y)
-    for (int x = 0; x < to_width; ++x)
-      for (int c = 0; c < components; ++c) {
-        double sum = 0; // double: a sum of up to nine terms stays exact to float rounding
-        for (std::size_t j = 0; j < rows[y].weights.size(); ++j)
-          for (std::size_t i = 0; i < columns[x].weights.size(); ++i) {
-            const std::size_t texel = (rows[y].first + j) * width + columns[x].first + i;
-            sum += rows[y].weights[j] * columns[x].weights[i] * source[texel * components + c];
-          }
-        result[(static_cast<std::size_t>(y) * to_width + x) * components + c] = static_cast<float>(sum);
-      }
-  return result;
-}
-
-Map with_pyramid(Texels texels, int width, int height, int components) {
-  Map map;
-  map.components = components;
-  for (;;) {
-    map.level_table.insert(map.level_table.end(),
-                           {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-                            static_cast<std::uint32_t>(map.words.size())});
-    ++map.level_count;
-    for (const float t : texels) map.words.push_back(std::bit_cast<std::uint32_t>(t));
-    if (width == 1 && height == 1) return map;
-    const int to_width = std::max(1, width / 2);
-    const int to_height = std::max(1, height / 2);
-    texels = halve(texels, width, height, to_width, to_height, components);
-    width = to_width;
-    height = to_height;
-  }
-}
 
 bool third_channel_is_constant(const Image& image) {
   const float first = image.at(0, 0, 2);
@@ -105,7 +47,7 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
     channels = two ? NormalChannels::xy : NormalChannels::xyz;
   }
   result.channels = channels;
-  Texels slopes(2 * texel_count(image));
+  std::vector<float> slopes(2 * texel_count(image));
   for (std::size_t i = 0; i < texel_count(image); ++i) {
     const vec3<double> m = decoded(image, i);
     const vec2<double> d = channels == NormalChannels::xy ? derivative_from_normal(vec2<double>{m.x, m.y})
@@ -118,8 +60,28 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
   return result;
 }
 
+Map make_derivative_map(const Image& image, double range, bool green_up, NeutralCode neutral) {
+  const double most = image.depth == Depth::unorm8 ? 255 : 65535;
+  const double half = neutral == NeutralCode::between ? most / 2 : (most - 1) / 2; // codes of `range`
+  const auto slope = [&](double value) {
+    if (image.depth == Depth::half || image.depth == Depth::float32) return range * value;
+    return range * std::max(-1.0, (value * most - (most - half)) / half);
+  };
+  std::vector<float> slopes;
+  slopes.reserve(2 * texel_count(image));
+  for (std::size_t i = 0; i < texel_count(image); ++i) {
+    const float* t = &image.texels[i * static_cast<std::size_t>(image.channels)];
+    vec2<double> d{slope(t[0]), slope(t[1])};
+    if (!std::isfinite(d.x) || !std::isfinite(d.y)) d = {0, 0};
+    d = (max_slope / std::max<double>(max_slope, max_abs(d))) * d;
+    slopes.push_back(static_cast<float>(d.x));
+    slopes.push_back(static_cast<float>(green_up ? d.y : -d.y));
+  }
+  return with_pyramid(std::move(slopes), image.width, image.height, 2);
+}
+
 Map make_direction_map(const Image& image, bool green_up) {
-  Texels directions(3 * texel_count(image));
+  std::vector<float> directions(3 * texel_count(image));
   for (std::size_t i = 0; i < texel_count(image); ++i) {
     const vec3<double> u = normalize_or_zero(decoded(image, i));
     directions[3 * i] = static_cast<float>(u.x);
@@ -130,10 +92,8 @@ Map make_direction_map(const Image& image, bool green_up) {
 }
 
 Map make_channel_map(const Image& image, int channel) {
-  const int alpha = image.has_alpha ? image.channels - 1 : image.channels == 4 ? 3 : -1;
-  const int colors = image.has_alpha ? image.channels - 1 : image.channels;
-  const int source = channel == 3 ? alpha : std::min(channel, colors - 1);
-  Texels values(texel_count(image), 1.0f);
+  const int source = image.source_of(channel);
+  std::vector<float> values(texel_count(image), 1.0f);
   for (std::size_t i = 0; source >= 0 && i < values.size(); ++i) {
     const float value = image.texels[i * static_cast<std::size_t>(image.channels) + source];
     values[i] = min(max(value, 0.0f), 1.0f); // NaN becomes 0

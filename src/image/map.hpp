@@ -49,6 +49,25 @@ struct SlopeMap {
 /// source    derivative_from_normal, texel by texel
 [[nodiscard]] SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up);
 
+/// Which code of an integer derivative map means flat.
+enum class NeutralCode {
+  between, ///< 127.5 of 255 (32767.5 of 65535): codes span -range..range evenly, none is exactly flat
+  whole,   ///< 128 (32768), as signed-normalised formats biased: (code - 128) / 127, code 0 as code 1
+};
+
+/// Slopes of a derivative map: its first two channels are (dh/ds, dh/dt) themselves.
+///
+/// image     at least two channels
+/// range     slope of the largest code: integer files span -range..range. A float file's values are
+///           slopes already, of either sign; they are multiplied by it.
+/// green_up  the map's green grows with t; false negates the second slope
+/// neutral   for integer files. `between` tilts a flat 8-bit map by range / 255; `whole` keeps it flat.
+/// returns   slopes shortened along their direction to components within +-max_slope, as normal maps are;
+///           not finite texels of a float file are flat
+/// source    Mikkelsen 2019, section 2.1: what a normal map is converted to, stored as it is
+[[nodiscard]] Map make_derivative_map(const Image& image, double range, bool green_up,
+                                      NeutralCode neutral = NeutralCode::between);
+
 /// Unit directions of an object- or world-space normal map; zero vectors stay zero, and so become
 /// those that are not finite. The image must have at least three channels.
 ///

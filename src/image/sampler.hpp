@@ -53,14 +53,19 @@ template <LaneScalar T>
   return select(last < i, last, i);
 }
 
+/// s modulo 2, where a mirrored coordinate repeats; its image lies the wrong way round beyond 1.
+template <LaneScalar T>
+[[nodiscard]] T mirror_phase(T s) {
+  return s - T(value_t<T>(2)) * floor(s * constant<T>(0.5));
+}
+
 template <LaneScalar T>
 [[nodiscard]] T wrap_coordinate(T s, Wrap wrap) {
   const T one = T(value_t<T>(1));
-  const T two = T(value_t<T>(2));
   if (wrap == Wrap::repeat) return s - floor(s);
   if (wrap == Wrap::clamp) return min(max(s, T(value_t<T>(0))), one);
-  const T phase = s - two * floor(s * constant<T>(0.5));
-  return select(one < phase, two - phase, phase);
+  const T phase = mirror_phase(s);
+  return select(one < phase, T(value_t<T>(2)) - phase, phase);
 }
 
 template <LaneScalar T>

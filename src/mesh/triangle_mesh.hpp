@@ -22,7 +22,9 @@ struct TangentSpace {
 /// An indexed triangle mesh in object space. Texture origin lower left, t up; counter-clockwise
 /// triangles face the viewer.
 struct TriangleMesh {
-  std::vector<vec3<float>> positions{};                  ///< one a vertex
+  std::vector<vec3<float>> positions{}; ///< one a vertex
+  /// One a vertex where the mesh has been displaced: the positions before it. Else empty.
+  std::vector<vec3<float>> rest_positions{};
   std::vector<vec3<float>> normals{};                    ///< one a vertex; readers generate missing ones
   std::vector<std::vector<vec2<float>>> uv_sets{};       ///< [set][vertex]; may be empty
   std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< vertex indices, all in range

@@ -14,8 +14,11 @@ template <class T>
 struct UvFragment {
   vec2<T> st;             ///< lower-left origin, t up
   vec2<T> dst_dx, dst_dy; ///< change per pixel to the right and upwards
-  vec3<T> tangent;        ///< interpolated, not normalised; zero where no layer asked for it
-  T sign;                 ///< bitangent = sign * cross(normal, tangent)
+  /// What mip levels are chosen by: dst_dx and dst_dy, but after a parallax correction those from before
+  /// it, where the layer says so.
+  vec2<T> footprint_dx, footprint_dy;
+  vec3<T> tangent; ///< interpolated, not normalised; zero where no layer asked for it
+  T sign;          ///< bitangent = sign * cross(normal, tangent)
 };
 
 /// A point of a surface as layers see it: interpolated attributes and analytic derivatives by the
@@ -23,10 +26,14 @@ struct UvFragment {
 /// World space; positions are relative to the camera.
 template <class T>
 struct Fragment {
+  vec2<T> raster; ///< where it lies in the raster, in pixels; centres at .5
   vec3<T> position;
+  vec3<T> object_position;    ///< object space, before any displacement: where functions of space are sampled
+  vec3<T> to_viewer;          ///< unit; zero where nobody looks, as in a bake
   vec3<T> normal;             ///< interpolated, any length
   mask_t<T> normal_is_absent; ///< interpolation gives zero: `normal` is the triangle's own
   vec3<T> dp_dx, dp_dy;
+  vec3<T> dn_dx, dn_dy; ///< change of the interpolated normal
   mask_t<T> front_facing;
   std::array<UvFragment<T>, max_uv_slots> uvs;
 };

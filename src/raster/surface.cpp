@@ -130,10 +130,19 @@ Fragment<double> make_fragment(const Surface& surface, std::uint32_t triangle, c
   const auto position = [&](std::size_t i) { return surface.positions[vertices[i]]; };
   const auto normal = [&](std::size_t i) { return surface.normals[vertices[i]]; };
   Fragment<double> f{};
+  const auto object_position = [&](std::size_t i) {
+    const mesh::TriangleMesh& mesh = *surface.mesh;
+    const vec3<float> p = (mesh.rest_positions.empty() ? mesh.positions : mesh.rest_positions)[vertices[i]];
+    return vec3<double>{p.x, p.y, p.z};
+  };
+  f.raster = {x, y};
   f.position = weighted<vec3<double>>(b.value, position);
+  f.object_position = weighted<vec3<double>>(b.value, object_position);
   f.dp_dx = weighted<vec3<double>>(b.dx, position);
   f.dp_dy = weighted<vec3<double>>(b.dy, position);
   f.normal = weighted<vec3<double>>(b.value, normal);
+  f.dn_dx = weighted<vec3<double>>(b.dx, normal);
+  f.dn_dy = weighted<vec3<double>>(b.dy, normal);
   // Vertex normals are unit or zero: what is shorter than this is the rounding of normals that cancel.
   f.normal_is_absent = !(max_abs(f.normal) > 1e-12);
   if (f.normal_is_absent) f.normal = triangle_normal(surface, vertices);
@@ -146,6 +155,8 @@ Fragment<double> make_fragment(const Surface& surface, std::uint32_t triangle, c
     uv.st = weighted<vec2<double>>(b.value, st);
     uv.dst_dx = weighted<vec2<double>>(b.dx, st);
     uv.dst_dy = weighted<vec2<double>>(b.dy, st);
+    uv.footprint_dx = uv.dst_dx;
+    uv.footprint_dy = uv.dst_dy;
     if (slot.tangents.empty()) continue;
     const auto tangent = [&](std::size_t i) {
       const vec4<double>& t = slot.tangents[3 * static_cast<std::size_t>(triangle) + i];

@@ -79,7 +79,8 @@ class TrianglePlanes {
 
 /// The fragment of a triangle at a raster position.
 ///
-/// front_facing is the winding in the raster, corrected for a mirroring transform.
+/// front_facing is the winding in the raster, corrected for a mirroring transform. to_viewer is zero: the
+/// raster knows no eye.
 [[nodiscard]] Fragment<double> make_fragment(const Surface& surface, std::uint32_t triangle,
                                              const TrianglePlanes& planes, double x, double y);
 

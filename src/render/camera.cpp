@@ -53,6 +53,15 @@ mat4<double> Pinhole::screen_from_relative(int width, int height) const {
   return {row(right, 0.5 * width), row(up, 0.5 * height), {0, 0, 0, 0}, {forward.x, forward.y, forward.z, 0}};
 }
 
+mat4<double> Pinhole::relative_from_screen(int width, int height) const {
+  // At distance w along `forward` lies w * (forward + dx right + dy up): divided by w, the fourth
+  // coordinate is 1 / w.
+  const vec3<double> x = (1 / focal_px) * right;
+  const vec3<double> y = (1 / focal_px) * up;
+  const vec3<double> corner = forward - (0.5 * width) * x - (0.5 * height) * y;
+  return {{x.x, y.x, 0, corner.x}, {x.y, y.y, 0, corner.y}, {x.z, y.z, 0, corner.z}, {0, 0, 1, 0}};
+}
+
 Pinhole place_camera(const scene::Scene& scene, int width, int height) {
   const stack::Camera& view = scene.camera;
   const double tan_half = std::tan(radians(view.fov_deg) / 2);

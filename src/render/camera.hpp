@@ -16,6 +16,9 @@ struct Pinhole {
   /// Takes positions relative to the eye to (x w, y w, unused, w) in pixels of a picture of this
   /// size, y up, w the distance along `forward`.
   [[nodiscard]] mat4<double> screen_from_relative(int width, int height) const;
+
+  /// Takes (x, y, 1 / w, 1) in pixels back to homogeneous positions relative to the eye.
+  [[nodiscard]] mat4<double> relative_from_screen(int width, int height) const;
 };
 
 /// The pinhole of a scene's camera for a picture of this size. Without a position it frames every

@@ -32,8 +32,9 @@ struct Sampler {
     const raster::Visible& what = visible.at(x, y);
     const raster::Surface& surface = stage.surfaces()[what.surface];
     const raster::TrianglePlanes planes = raster::screen_planes(surface, what.triangle, projection);
-    const raster::Fragment<double> fragment =
+    raster::Fragment<double> fragment =
         raster::make_fragment(surface, what.triangle, planes, x + 0.5, y + 0.5);
+    fragment.to_viewer = normalize_or_zero(-fragment.position);
     const engine::Composition<double> c = stage.compose(what, fragment);
     return {value_of(fragment, c), c.degenerate};
   }
@@ -55,7 +56,7 @@ struct Sampler {
     case Aov::beauty:
       break;
     }
-    return (*shading)(c.normal, normalize_or_zero(-fragment.position));
+    return (*shading)(c.normal, fragment.to_viewer, c.sunlight);
   }
 };
 
@@ -100,12 +101,14 @@ Picture render(const scene::Scene& scene, const Options& options, const Report& 
   const mat4<double> projection = camera.screen_from_relative(width, height);
   std::vector<raster::UvSlot> needed;
   if (options.aov == Aov::uv) needed.push_back({0, false});
-  const stage::Stage stage(scene, camera.eye, needed, report);
+  std::optional<Shading> shading;
+  if (beauty) shading.emplace(scene.lights, scene.environment.get());
+  const stage::View view{camera.eye, camera.relative_from_screen(width, height),
+                         shading ? shading->to_sun() : vec3<double>{0, 0, 0}};
+  const stage::Stage stage(scene, view, needed, report);
   const raster::VisibilityBuffer visible = raster::see_from_camera(
       stage.surfaces(), projection, camera.near, width, height,
       [&](std::uint32_t s, std::uint32_t t, bool front) { return stage.culled(s, t, front); });
-  std::optional<Shading> shading;
-  if (beauty) shading.emplace(scene.lights, scene.environment.get());
   const Sampler sample{stage, visible, projection, options.aov, shading ? &*shading : nullptr};
 
   Picture picture{image::make_image(options.width, options.height, 3, image::Depth::float32)};

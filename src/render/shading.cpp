@@ -79,7 +79,7 @@ vec2<double> Shading::reflectance(double cos_view) const {
   return (1 - f) * albedo_[i] + f * albedo_[i + 1];
 }
 
-vec3<double> Shading::operator()(vec3<double> normal, vec3<double> to_viewer) const {
+vec3<double> Shading::operator()(vec3<double> normal, vec3<double> to_viewer, double sunlight) const {
   const double cos_view = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
   const vec2<double> split = reflectance(cos_view);
   const double mirrored = f0 * split.x + split.y;
@@ -92,7 +92,7 @@ vec3<double> Shading::operator()(vec3<double> normal, vec3<double> to_viewer) co
   const double f = grazing(dot(half, to_viewer));
   const double glaze =
       (f0 + (1 - f0) * f) * distribution(dot(normal, half)) * visibility(std::max(cos_view, 1e-4), cos_light);
-  const double direct = sun_ * cos_light;
+  const double direct = sunlight * sun_ * cos_light;
   return light + direct * ((1 / pi) * (1 - mirrored) * body + vec3<double>{glaze, glaze, glaze});
 }
 

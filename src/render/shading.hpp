@@ -18,8 +18,12 @@ class Shading {
   Shading(const stack::Lights& lights, const image::Image* environment);
 
   /// Linear radiance towards the viewer. normal and to_viewer are unit; a normal that faces away is
-  /// treated as seen edge-on.
-  [[nodiscard]] vec3<double> operator()(vec3<double> normal, vec3<double> to_viewer) const;
+  /// treated as seen edge-on. sunlight is the share of the sun that reaches the point, in [0, 1].
+  [[nodiscard]] vec3<double> operator()(vec3<double> normal, vec3<double> to_viewer,
+                                        double sunlight = 1) const;
+
+  /// World space, unit; zero where no sun shines.
+  [[nodiscard]] vec3<double> to_sun() const { return sun_ > 0 ? to_sun_ : vec3<double>{0, 0, 0}; }
 
  private:
   [[nodiscard]] vec2<double> reflectance(double cos_view) const;

@@ -5,10 +5,10 @@
 #include "io/file.hpp"
 #include "io/image_file.hpp"
 #include "io/model_file.hpp"
+#include "stack/uses.hpp"
 
 #include <numbers>
 #include <set>
-#include <type_traits>
 
 namespace surfgrad::scene {
 namespace {
@@ -71,18 +71,10 @@ fs::path beside(const fs::path& document, const fs::path& file) {
 /// Resolves the file names of layers against the document and loads the images.
 void load_maps(std::vector<stack::Layer>& layers, const fs::path& document, Scene& scene) {
   for (stack::Layer& layer : layers)
-    std::visit(
-        [&](auto& l) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(l)>, stack::ResolveLayer>) {
-            l.map.file.path = beside(document, l.map.file.path);
-            load_image(l.map.file, document, scene);
-            if (l.common.mask) {
-              l.common.mask->file.path = beside(document, l.common.mask->file.path);
-              load_image(l.common.mask->file, document, scene);
-            }
-          }
-        },
-        layer);
+    for (stack::FileName* file : stack::files_of(layer)) {
+      file->path = beside(document, file->path);
+      load_image(*file, document, scene);
+    }
 }
 
 void take_model(io::Model model, Scene& scene) {
@@ -148,15 +140,8 @@ void check_uv_sets(const Scene& scene, const fs::path& document, const fs::path&
     const std::set<std::uint32_t> used(mesh.material_of_triangle.begin(), mesh.material_of_triangle.end());
     for (const std::uint32_t material : used)
       for (const stack::Layer& layer : scene.materials[material].layers)
-        std::visit(
-            [&](const auto& l) {
-              if constexpr (!std::is_same_v<std::decay_t<decltype(l)>, stack::ResolveLayer>) {
-                const fs::path& source = l.map.uv_line > 0 ? document : model;
-                check_uv(l.map, source, object, mesh, l.common.key + ".uv");
-                if (l.common.mask) check_uv(*l.common.mask, source, object, mesh, l.common.key + ".mask.uv");
-              }
-            },
-            layer);
+        for (const stack::TextureUse& use : stack::textures_of(layer))
+          check_uv(*use.texture, use.texture->uv_line > 0 ? document : model, object, mesh, use.key + ".uv");
   }
 }
 

@@ -5,7 +5,7 @@
 namespace surfgrad::stack {
 namespace {
 
-void read_tile(Texture& texture, const Value& value, const Shape& shape) {
+void read_tile(Tiled& tiled, const Value& value, const Shape& shape) {
   const auto* one = std::get_if<double>(&value.node.value);
   const auto* two = std::get_if<std::vector<Node>>(&value.node.value);
   if (one == nullptr && (two == nullptr || two->size() != 2)) value.reject(expectation(shape));
@@ -16,24 +16,30 @@ void read_tile(Texture& texture, const Value& value, const Shape& shape) {
   };
   if (one != nullptr) {
     const double both = component(value);
-    texture.tile = {both, both};
+    tiled.tile = {both, both};
   } else {
-    texture.tile = {component(value.element(0)), component(value.element(1))};
+    tiled.tile = {component(value.element(0)), component(value.element(1))};
   }
 }
 
 } // namespace
+
+const Fields<Tiled>& Tiled::fields() {
+  static const auto table = Fields<Tiled>()
+                                .add("tile", {.kind = Shape::Kind::tile}, read_tile)
+                                .number("rotate", &Tiled::rotate_deg)
+                                .vector("offset", &Tiled::offset)
+                                .word("wrap", &Tiled::wrap)
+                                .word("filter", &Tiled::filter);
+  return table;
+}
 
 const Fields<Texture>& Texture::fields() {
   static const auto table = Fields<Texture>()
                                 .file("map", &Texture::file)
                                 .required()
                                 .integer("uv", &Texture::uv, {.least = 0, .most = 7})
-                                .add("tile", {.kind = Shape::Kind::tile}, read_tile)
-                                .number("rotate", &Texture::rotate_deg)
-                                .vector("offset", &Texture::offset)
-                                .word("wrap", &Texture::wrap)
-                                .word("filter", &Texture::filter)
+                                .base<Tiled>()
                                 .finally([](Texture& texture, const Value& value) {
                                   const Member* given = value.find("uv");
                                   texture.uv_line = given != nullptr ? given->node.line : value.node.line;

@@ -20,12 +20,9 @@ struct FileName {
   std::string key{};            ///< e.g. `layers[2].mask.map`
 };
 
-/// How a 2D map lies on a texture coordinate st (origin lower left, t up):
+/// How a 2D map lies on a plane of coordinates st (origin lower left, t up):
 ///   st' = R(rotate_deg) * (tile * st) + offset, R counter-clockwise.
-struct Texture {
-  FileName file{};
-  int uv = 0;              ///< texture coordinate set, 0 to 7
-  int uv_line = 0;         ///< line of `uv`, or of the object that leaves it out
+struct Tiled {
   vec2<double> tile{1, 1}; ///< neither component is zero; a negative one mirrors
   double rotate_deg = 0;
   vec2<double> offset{0, 0}; ///< in units of the map
@@ -33,6 +30,15 @@ struct Texture {
   /// Along t where it differs: a model's sampler can say so, a document has one word for both axes.
   std::optional<Wrap> wrap_t{};
   Filter filter = Filter::trilinear;
+
+  static const Fields<Tiled>& fields();
+};
+
+/// A 2D map on a texture coordinate of the mesh.
+struct Texture : Tiled {
+  FileName file{};
+  int uv = 0;      ///< texture coordinate set, 0 to 7
+  int uv_line = 0; ///< line of `uv`, or of the object that leaves it out
 
   static const Fields<Texture>& fields();
 };

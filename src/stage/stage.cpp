@@ -52,7 +52,7 @@ void warn_about_tangents(const scene::Scene& scene, const std::vector<raster::Uv
 
 } // namespace
 
-Stage::Stage(const scene::Scene& scene, vec3<double> origin, const std::vector<raster::UvSlot>& needed,
+Stage::Stage(const scene::Scene& scene, const View& view, const std::vector<raster::UvSlot>& needed,
              const Report& report)
     : scene_(scene), slots_(needed) {
   require_uv_sets(scene, needed);
@@ -69,8 +69,10 @@ Stage::Stage(const scene::Scene& scene, vec3<double> origin, const std::vector<r
   warn_about_tangents(scene, slots_, report);
   for (const scene::Object& object : scene.objects) {
     surfaces_.push_back(
-        raster::place_mesh(scene.meshes[object.mesh], object.world_from_object, origin, slots_));
-    world_from_object_.push_back(raster::linear_part(object.world_from_object));
+        raster::place_mesh(scene.meshes[object.mesh], object.world_from_object, view.origin, slots_));
+    placements_.push_back(engine::place(object.world_from_object, view.origin));
+    placements_.back().relative_from_screen = view.relative_from_screen;
+    placements_.back().to_sun = view.to_sun;
   }
 }
 
@@ -94,7 +96,7 @@ engine::Composition<double> Stage::compose(const raster::Visible& what,
   const std::uint32_t material = material_of(what.surface, what.triangle);
   return engine::compose_reference(programs_[material], fragment,
                                    back_faces_of(scene_.materials[material].back_faces),
-                                   world_from_object_[what.surface]);
+                                   placements_[what.surface]);
 }
 
 } // namespace surfgrad::stage

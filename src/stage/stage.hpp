@@ -6,20 +6,28 @@
 #include "scene/scene.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace surfgrad::stage {
+
+/// Where the fragments of a picture come from and who looks at them. The default is a bake's: nobody.
+struct View {
+  vec3<double> origin{0, 0, 0}; ///< world position that fragments are relative to: the camera
+  /// Takes (x, y, depth, 1) in pixels to positions relative to the origin, before the division by w.
+  std::optional<mat4<double>> relative_from_screen{};
+  vec3<double> to_sun{0, 0, 0}; ///< world space, unit; zero where no sun shines
+};
 
 /// A scene made ready for the engine: layers compiled, meshes placed in the world. What render and
 /// bake have in common.
 class Stage {
  public:
-  /// origin  world position that fragments are relative to (the camera; zero for bakes)
   /// needed  texture coordinates that the job reads besides those of the layers
   /// Warns about normal maps with texels that point into the surface. The scene must outlive the
   /// stage. Throws InputError where a mesh lacks a needed UV set or the scene needs more of them than a
   /// fragment carries.
-  Stage(const scene::Scene& scene, vec3<double> origin, const std::vector<raster::UvSlot>& needed,
+  Stage(const scene::Scene& scene, const View& view, const std::vector<raster::UvSlot>& needed,
         const Report& report);
 
   /// One a scene object, in the same order.
@@ -41,7 +49,7 @@ class Stage {
   std::vector<raster::UvSlot> slots_;
   std::vector<engine::Program> programs_; // one a material
   std::vector<raster::Surface> surfaces_;
-  std::vector<mat3<double>> world_from_object_;
+  std::vector<engine::Placement> placements_; // one a surface
 };
 
 } // namespace surfgrad::stage

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/layers/texture.hpp"
+#include "engine/layers/influence.hpp"
 
 #include <surfgrad/gradient.hpp>
 
@@ -29,30 +29,39 @@ template <Scalar T>
   return {tangent, side * bitangent};
 }
 
-/// Surface gradient of a tangent-space normal map at a fragment.
+/// Tangent frame of a texture coordinate: made in place, or the vertex frame of the pass.
 ///
-/// first_pass   uniform: no resolve came before
+/// derived     uniform: from the texture coordinate's derivatives, else from the vertex tangents
+/// collapsed   (out) the coordinate or the vertex frame has collapsed: there the frame is zero
+template <Scalar T>
+[[nodiscard]] TangentFrame<T> frame_of(const Point<T>& point, int slot, bool derived, mask_t<T>& collapsed) {
+  const raster::UvFragment<T>& uv = point.fragment.uvs[static_cast<std::size_t>(slot)];
+  TangentFrame<T> basis;
+  if (derived) {
+    basis = tangent_basis(point.frame, uv.dst_dx, uv.dst_dy);
+  } else {
+    basis = mikktspace_basis(point.fragment.normal, uv.tangent, uv.sign);
+    if (!point.first_pass) basis = rebased_basis(point.frame, basis);
+  }
+  // No bitangent either means no tangent or one along the normal.
+  const T zero = T(value_t<T>(0));
+  const vec3<T> none{zero, zero, zero};
+  collapsed = max_abs(basis.bitangent) == zero;
+  return {select<T>(collapsed, none, basis.tangent), select<T>(collapsed, none, basis.bitangent)};
+}
+
+/// Surface gradient of a tangent-space normal map at a point.
+///
 /// degenerate   (out) set where the texture coordinate or the vertex frame has collapsed; the
 ///              gradient is zero there
 template <LaneScalar T>
-[[nodiscard]] vec3<T> surface_gradient(const NormalMap& layer, const raster::Fragment<T>& fragment,
-                                       const Frame<T>& frame, bool first_pass, mask_t<T>& degenerate) {
-  const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(layer.texture.slot)];
-  TangentFrame<T> basis;
-  if (layer.derived) {
-    basis = tangent_basis(frame, uv.dst_dx, uv.dst_dy);
-  } else {
-    basis = mikktspace_basis(fragment.normal, uv.tangent, uv.sign);
-    if (!first_pass) basis = rebased_basis(frame, basis);
-  }
-  // No bitangent either means no tangent or one along the normal.
-  const mask_t<T> collapsed = max_abs(basis.bitangent) == T(value_t<T>(0));
+[[nodiscard]] vec3<T> surface_gradient(const NormalMap& layer, const Point<T>& point, mask_t<T>& degenerate) {
+  mask_t<T> collapsed;
+  const TangentFrame<T> basis = frame_of(point, layer.texture.slot, layer.derived, collapsed);
   degenerate = degenerate | collapsed;
-  const std::array<T, 2> slope = sample<2>(layer.texture, fragment);
-  const vec3<T> g =
-      from_tbn(along_coordinate(layer.texture, vec2<T>{slope[0], slope[1]}), basis.tangent, basis.bitangent);
-  const T zero = T(value_t<T>(0));
-  return select<T>(collapsed, vec3<T>{zero, zero, zero}, g);
+  const std::array<T, 2> slope = sample<2>(layer.texture, point.fragment);
+  return from_tbn(along_coordinate(layer.texture.tiled, vec2<T>{slope[0], slope[1]}), basis.tangent,
+                  basis.bitangent);
 }
 
 } // namespace surfgrad::engine

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/layers/texture.hpp"
+#include "engine/layers/influence.hpp"
 
 #include <surfgrad/gradient.hpp>
 #include <surfgrad/resolve.hpp>
@@ -14,19 +14,18 @@ struct ObjectNormalMap {
   bool world = false; ///< already in world space: the object's transform does not touch it
 };
 
-/// Surface gradient of an object- or world-space normal map at a fragment.
+/// Surface gradient of an object- or world-space normal map at a point. Object-space normals follow the
+/// object's scale.
 ///
-/// world_from_object  linear part of the object's transform: object-space normals follow its scale
-/// degenerate         (out) set where the map holds no direction; the gradient is zero there
+/// degenerate  (out) set where the map holds no direction; the gradient is zero there
 template <LaneScalar T>
-[[nodiscard]] vec3<T> surface_gradient(const ObjectNormalMap& layer, const raster::Fragment<T>& fragment,
-                                       const Frame<T>& frame, const mat3<T>& world_from_object,
+[[nodiscard]] vec3<T> surface_gradient(const ObjectNormalMap& layer, const Point<T>& point,
                                        mask_t<T>& degenerate) {
-  const std::array<T, 3> texel = sample<3>(layer.texture, fragment);
+  const std::array<T, 3> texel = sample<3>(layer.texture, point.fragment);
   vec3<T> v{texel[0], texel[1], texel[2]};
   degenerate = degenerate | (max_abs(v) == T(value_t<T>(0)));
-  if (!layer.world) v = transform_normal(world_from_object, v);
-  return from_perturbed_normal(frame.normal, v);
+  if (!layer.world) v = transform_normal(in_lanes<T>(point.placement.linear), v);
+  return from_perturbed_normal(point.frame.normal, v);
 }
 
 } // namespace surfgrad::engine

@@ -58,18 +58,25 @@ inline stack::Mask mask_of(const char* map, stack::MaskChannel channel = stack::
 /// are perpendicular to the normal, as at a vertex.
 inline raster::Fragment<double> random_fragment(Random& random) {
   raster::Fragment<double> f{};
+  f.raster = 100.0 * random.vector2(0, 1);
   f.position = random.vector3();
+  f.object_position = random.vector3();
   const mat3<double> r = random.rotation(); // rows: two directions in the surface, its normal
   f.normal = random.uniform(0.5, 1) * normalize_or_zero(r.z + 0.2 * random.vector3());
   const double pixel = random.magnitude(1e-3, 1e-1);
   f.dp_dx = pixel * (r.x + 0.3 * random.uniform() * r.y);
   f.dp_dy = pixel * (random.uniform(0.4, 1) * r.y + 0.3 * random.uniform() * r.x);
+  f.dn_dx = 0.05 * random.vector3();
+  f.dn_dy = 0.05 * random.vector3();
+  f.to_viewer = normalize_or_zero(f.normal + 0.4 * random.vector3());
   f.front_facing = true;
   for (std::size_t s = 0; s < 2; ++s) {
     raster::UvFragment<double>& uv = f.uvs[s];
     uv.st = random.vector2(-1, 2);
     uv.dst_dx = {0.02 * random.uniform(0.3, 1), 0.02 * random.uniform(-0.2, 0.2)};
     uv.dst_dy = {0.02 * random.uniform(-0.2, 0.2), 0.02 * random.sign() * random.uniform(0.3, 1)};
+    uv.footprint_dx = uv.dst_dx;
+    uv.footprint_dy = uv.dst_dy;
     uv.tangent = random.uniform(0.5, 1) * normalize_or_zero(cross(f.normal, random.vector3()));
     uv.sign = random.sign();
   }
@@ -85,10 +92,16 @@ inline raster::Fragment<double> leaning_fragment(Random& random) {
 
 inline constexpr mat3<double> identity{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
+/// An object with this linear transform, at the world's origin.
+inline Placement placed(const mat3<double>& m) {
+  return place({{m.x.x, m.x.y, m.x.z, 0}, {m.y.x, m.y.y, m.y.z, 0}, {m.z.x, m.z.y, m.z.z, 0}, {0, 0, 0, 1}},
+               {0, 0, 0});
+}
+
 inline Composition<double> composed(const Program& program, const raster::Fragment<double>& fragment,
                                     BackFaces back_faces = BackFaces::same,
                                     const mat3<double>& world_from_object = identity) {
-  return compose(program, fragment, back_faces, world_from_object);
+  return compose(program, fragment, back_faces, placed(world_from_object));
 }
 
 /// One layer of every kind, each with a map of its own; "mask" weighs the second.

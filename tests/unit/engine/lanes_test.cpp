@@ -20,15 +20,25 @@ vec2<float> narrow(vec2<double> v) { return {static_cast<float>(v.x), static_cas
 
 raster::Fragment<float> narrow(const raster::Fragment<double>& f) {
   raster::Fragment<float> r{};
+  r.raster = narrow(f.raster);
   r.position = narrow(f.position);
+  r.object_position = narrow(f.object_position);
+  r.to_viewer = narrow(f.to_viewer);
   r.normal = narrow(f.normal);
   r.normal_is_absent = f.normal_is_absent;
   r.dp_dx = narrow(f.dp_dx);
   r.dp_dy = narrow(f.dp_dy);
+  r.dn_dx = narrow(f.dn_dx);
+  r.dn_dy = narrow(f.dn_dy);
   r.front_facing = f.front_facing;
   for (std::size_t s = 0; s < 2; ++s)
-    r.uvs[s] = {narrow(f.uvs[s].st), narrow(f.uvs[s].dst_dx), narrow(f.uvs[s].dst_dy),
-                narrow(f.uvs[s].tangent), static_cast<float>(f.uvs[s].sign)};
+    r.uvs[s] = {narrow(f.uvs[s].st),
+                narrow(f.uvs[s].dst_dx),
+                narrow(f.uvs[s].dst_dy),
+                narrow(f.uvs[s].footprint_dx),
+                narrow(f.uvs[s].footprint_dy),
+                narrow(f.uvs[s].tangent),
+                static_cast<float>(f.uvs[s].sign)};
   return r;
 }
 
@@ -43,16 +53,23 @@ void put(vec2<EmulatedFloat>& pack, int lane, vec2<float> v) {
 }
 
 void put(raster::Fragment<EmulatedFloat>& pack, int lane, const raster::Fragment<float>& f) {
+  put(pack.raster, lane, f.raster);
   put(pack.position, lane, f.position);
+  put(pack.object_position, lane, f.object_position);
+  put(pack.to_viewer, lane, f.to_viewer);
   put(pack.normal, lane, f.normal);
   pack.normal_is_absent.lane[lane] = f.normal_is_absent;
   put(pack.dp_dx, lane, f.dp_dx);
   put(pack.dp_dy, lane, f.dp_dy);
+  put(pack.dn_dx, lane, f.dn_dx);
+  put(pack.dn_dy, lane, f.dn_dy);
   pack.front_facing.lane[lane] = f.front_facing;
   for (std::size_t s = 0; s < 2; ++s) {
     put(pack.uvs[s].st, lane, f.uvs[s].st);
     put(pack.uvs[s].dst_dx, lane, f.uvs[s].dst_dx);
     put(pack.uvs[s].dst_dy, lane, f.uvs[s].dst_dy);
+    put(pack.uvs[s].footprint_dx, lane, f.uvs[s].footprint_dx);
+    put(pack.uvs[s].footprint_dy, lane, f.uvs[s].footprint_dy);
     put(pack.uvs[s].tangent, lane, f.uvs[s].tangent);
     pack.uvs[s].sign.lane[lane] = f.uvs[s].sign;
   }
@@ -70,11 +87,7 @@ TEST(ComposeLanes, EqualOneLaneInEveryBackFaceMode) {
   std::vector<stack::Layer> layers = test::one_of_each(lab, random);
   layers.insert(layers.begin() + 2, stack::ResolveLayer{});
   const Program program = lab.compile(layers);
-  const mat3<float> linear{{0, -2, 0}, {1, 0, 0}, {0, 0, -1}};
-  const auto wide = [](vec3<float> v) {
-    return vec3<EmulatedFloat>{EmulatedFloat(v.x), EmulatedFloat(v.y), EmulatedFloat(v.z)};
-  };
-  const mat3<EmulatedFloat> linear_pack{wide(linear.x), wide(linear.y), wide(linear.z)};
+  const Placement placement = test::placed({{0, -2, 0}, {1, 0, 0}, {0, 0, -1}});
   for (const BackFaces mode : {BackFaces::same, BackFaces::mirror, BackFaces::flip})
     for (int k = 0; k < 100; ++k) {
       raster::Fragment<EmulatedFloat> pack{};
@@ -88,9 +101,9 @@ TEST(ComposeLanes, EqualOneLaneInEveryBackFaceMode) {
         one[static_cast<std::size_t>(i)] = narrow(f);
         put(pack, i, one[static_cast<std::size_t>(i)]);
       }
-      const auto got = compose(program, pack, mode, linear_pack);
+      const auto got = compose(program, pack, mode, placement);
       for (int i = 0; i < emulated_width; ++i) {
-        const auto expected = compose(program, one[static_cast<std::size_t>(i)], mode, linear);
+        const auto expected = compose(program, one[static_cast<std::size_t>(i)], mode, placement);
         expect_same_bits(got.normal.x.lane[i], expected.normal.x);
         expect_same_bits(got.normal.y.lane[i], expected.normal.y);
         expect_same_bits(got.normal.z.lane[i], expected.normal.z);

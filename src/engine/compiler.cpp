@@ -1,0 +1,69 @@
+#include "engine/compiler.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace surfgrad::engine {
+namespace {
+
+image::Wrap wrap_of(stack::Wrap wrap) {
+  switch (wrap) {
+  case stack::Wrap::mirror:
+    return image::Wrap::mirror;
+  case stack::Wrap::clamp:
+    return image::Wrap::clamp;
+  case stack::Wrap::repeat:
+    break;
+  }
+  return image::Wrap::repeat;
+}
+
+image::Filter filter_of(stack::Filter filter) {
+  switch (filter) {
+  case stack::Filter::nearest:
+    return image::Filter::nearest;
+  case stack::Filter::bilinear:
+    return image::Filter::bilinear;
+  case stack::Filter::trilinear:
+    break;
+  }
+  return image::Filter::trilinear;
+}
+
+/// Cosine and sine; exact for whole quarter turns, so that a map turned by 90 degrees stays on its
+/// texel grid.
+vec2<double> rotation_of(double degrees) {
+  const double turn = std::remainder(degrees, 360.0); // exact, within half a turn
+  if (turn == 0) return {1, 0};
+  if (turn == 90) return {0, 1};
+  if (turn == -90) return {0, -1};
+  if (std::abs(turn) == 180) return {-1, 0};
+  const double radians = turn * std::numbers::pi / 180.0;
+  return {std::cos(radians), std::sin(radians)};
+}
+
+} // namespace
+
+TiledMap Compiler::tiled(const stack::Tiled& use, std::shared_ptr<const image::Map> map) const {
+  return {std::move(map),
+          use.tile,
+          rotation_of(use.rotate_deg),
+          use.offset,
+          {wrap_of(use.wrap), wrap_of(use.wrap_t.value_or(use.wrap))},
+          filter_of(use.filter)};
+}
+
+Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image::Map> map) const {
+  int slot = 0;
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (slots_[i].uv_set == use.uv) slot = static_cast<int>(i);
+  return {tiled(use, std::move(map)), slot};
+}
+
+Influence Compiler::influence(const stack::LayerCommon& common) const {
+  Influence influence{common.scale, common.opacity, common.blend == stack::Blend::mix, std::nullopt};
+  if (common.mask) influence.mask = texture(*common.mask, maps_.channel(*common.mask));
+  return influence;
+}
+
+} // namespace surfgrad::engine

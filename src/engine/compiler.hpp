@@ -1,0 +1,38 @@
+#pragma once
+
+#include "engine/layers/influence.hpp"
+#include "engine/layers/normal_map.hpp"
+#include "engine/layers/object_normal_map.hpp"
+#include "engine/layers/resolve.hpp"
+#include "engine/map_library.hpp"
+#include "raster/surface.hpp"
+#include "stack/stack.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace surfgrad::engine {
+
+/// What it takes to turn the layers of a document into those that run.
+class Compiler {
+ public:
+  /// slots  texture coordinates that the surfaces carry: every one the layers read
+  /// Both must outlive the compiler.
+  Compiler(const std::vector<raster::UvSlot>& slots, MapLibrary& maps) : slots_(slots), maps_(maps) {}
+
+  [[nodiscard]] MapLibrary& maps() const { return maps_; }
+  [[nodiscard]] TiledMap tiled(const stack::Tiled& use, std::shared_ptr<const image::Map> map) const;
+  [[nodiscard]] Texture texture(const stack::Texture& use, std::shared_ptr<const image::Map> map) const;
+  [[nodiscard]] Influence influence(const stack::LayerCommon& common) const;
+
+ private:
+  const std::vector<raster::UvSlot>& slots_;
+  MapLibrary& maps_;
+};
+
+// One for each kind, beside its kernel in layers/.
+[[nodiscard]] NormalMap compiled(const stack::NormalMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] ObjectNormalMap compiled(const stack::ObjectNormalMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
+
+} // namespace surfgrad::engine

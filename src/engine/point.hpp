@@ -1,0 +1,83 @@
+#pragma once
+
+#include "engine/placement.hpp"
+#include "raster/fragment.hpp"
+
+#include <surfgrad/frame.hpp>
+#include <surfgrad/gradient.hpp>
+
+namespace surfgrad::engine {
+
+/// A fragment on its way through the layers: what kernels read, and what a layer may change for those
+/// after it.
+template <class T>
+struct Point {
+  raster::Fragment<T> fragment; ///< parallax moves it
+  Frame<T> frame;               ///< of the current pass
+  bool first_pass;              ///< uniform: no resolve came before
+  T sunlight;                   ///< share of the sun that reaches it, in [0, 1]
+  const Placement& placement;
+};
+
+/// Matrices and vectors of a placement, in every lane.
+template <Scalar T>
+[[nodiscard]] vec3<T> in_lanes(vec3<double> v) {
+  return {constant<T>(v.x), constant<T>(v.y), constant<T>(v.z)};
+}
+template <Scalar T>
+[[nodiscard]] mat3<T> in_lanes(const mat3<double>& m) {
+  return {in_lanes<T>(m.x), in_lanes<T>(m.y), in_lanes<T>(m.z)};
+}
+template <Scalar T>
+[[nodiscard]] mat4<T> in_lanes(const mat4<double>& m) {
+  const auto row = [](vec4<double> r) {
+    return vec4<T>{constant<T>(r.x), constant<T>(r.y), constant<T>(r.z), constant<T>(r.w)};
+  };
+  return {row(m.x), row(m.y), row(m.z), row(m.w)};
+}
+
+/// Position and pixel footprint in the space in which a function of space is sampled.
+template <class T>
+struct SpacePoint {
+  vec3<T> position, dp_dx, dp_dy;
+};
+
+/// The point in object space, or in world space. The surface's own positions, not displaced ones: detail
+/// stays where it was on the surface.
+template <Scalar T>
+[[nodiscard]] SpacePoint<T> in_space(const Point<T>& point, bool world) {
+  const raster::Fragment<T>& f = point.fragment;
+  if (!world) {
+    const mat3<T> inverse = in_lanes<T>(point.placement.inverse_linear);
+    return {f.object_position, inverse * f.dp_dx, inverse * f.dp_dy};
+  }
+  const mat4<T> m = in_lanes<T>(point.placement.world_from_object);
+  const vec4<T> p =
+      m * vec4<T>{f.object_position.x, f.object_position.y, f.object_position.z, T(value_t<T>(1))};
+  return {{p.x, p.y, p.z}, f.dp_dx, f.dp_dy};
+}
+
+/// The base normal of the pass in object space or world space: unit, or zero where there is none.
+template <Scalar T>
+[[nodiscard]] vec3<T> normal_in_space(const Point<T>& point, bool world) {
+  if (world) return point.frame.normal;
+  // The transpose takes normals back: it is the inverse of the inverse transpose.
+  return normalize_or_zero(transpose(in_lanes<T>(point.placement.linear)) * point.frame.normal);
+}
+
+/// Surface gradient in world space of a volume gradient in object space or world space. An object-space
+/// bump follows the object: it is displaced there, then transformed (Golubev, equation 33). Linear in
+/// the gradient.
+///
+/// degenerate  a transform without inverse gives zero for gradients in object space
+template <Scalar T>
+[[nodiscard]] vec3<T> from_gradient_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
+  const vec3<T> n = point.frame.normal;
+  if (world) return from_volume_gradient(n, gradient);
+  // transform_normal(M, N - G) for N = M^T n / |M^T n|, scaled so that its part along n is n itself.
+  const T stretch = length(transpose(in_lanes<T>(point.placement.linear)) * n);
+  const vec3<T> g = transpose(in_lanes<T>(point.placement.inverse_linear)) * gradient;
+  return from_volume_gradient(n, stretch * g);
+}
+
+} // namespace surfgrad::engine

@@ -1,0 +1,52 @@
+#include "image/height_map.hpp"
+
+#include "image/pyramid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace surfgrad::image {
+namespace {
+
+std::vector<float> heights(const Image& image, int channel) {
+  std::vector<float> result(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+                            1.0f);
+  const int source = image.source_of(channel);
+  for (std::size_t i = 0; source >= 0 && i < result.size(); ++i) {
+    const float h = image.texels[i * static_cast<std::size_t>(image.channels) + source];
+    result[i] = std::isfinite(h) ? saturated(h) : 0.0f;
+  }
+  return result;
+}
+
+} // namespace
+
+Map make_height_map(const Image& image, int channel) {
+  return with_pyramid(heights(image, channel), image.width, image.height, 1);
+}
+
+Map make_height_slopes(const Image& image, int channel, Wraps wraps) {
+  const std::vector<float> h = heights(image, channel);
+  const int width = image.width;
+  const int height = image.height;
+  const auto at = [&](int x, int y) -> double {
+    return h[static_cast<std::size_t>(detail::wrap_index<float>(y, height, wraps.t)) * width +
+             detail::wrap_index<float>(x, width, wraps.s)];
+  };
+  // A mirrored neighbour of a border texel is that texel again, as with Wrap::clamp: wrap_index serves all.
+  const auto slope = [](double before, double after, int size) {
+    constexpr double most = saturated(std::numeric_limits<float>::max());
+    return static_cast<float>(std::clamp(0.5 * size * (after - before), -most, most));
+  };
+  std::vector<float> slopes;
+  slopes.reserve(2 * h.size());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      slopes.push_back(slope(at(x - 1, y), at(x + 1, y), width));
+      slopes.push_back(slope(at(x, y - 1), at(x, y + 1), height));
+    }
+  return with_pyramid(std::move(slopes), width, height, 2);
+}
+
+} // namespace surfgrad::image
