@@ -31,6 +31,9 @@ enum class MaskChannel { r, g, b, a };
 /// Functions of space: three noises, and three ways to sum octaves of one.
 enum class NoiseKind { perlin, simplex, worley, fractal_sum, turbulence, ridged };
 enum class NoiseBasis { perlin, simplex, worley };
+/// surface_gradient: the gradient's part along the surface; perlin1985: the whole gradient added to the
+/// normal, as Perlin did in 1985, to compare with.
+enum class NoiseMethod { surface_gradient, perlin1985 };
 
 template <class E>
 struct Word {
@@ -84,6 +87,9 @@ inline constexpr auto
 template <>
 inline constexpr auto words_of<NoiseBasis> = std::to_array<Word<NoiseBasis>>(
     {{"perlin", NoiseBasis::perlin}, {"simplex", NoiseBasis::simplex}, {"worley", NoiseBasis::worley}});
+template <>
+inline constexpr auto words_of<NoiseMethod> = std::to_array<Word<NoiseMethod>>(
+    {{"surface_gradient", NoiseMethod::surface_gradient}, {"perlin1985", NoiseMethod::perlin1985}});
 template <>
 inline constexpr auto words_of<WorleyKind> =
     std::to_array<Word<WorleyKind>>({{"f1", WorleyKind::f1}, {"f2_minus_f1", WorleyKind::f2_minus_f1}});
