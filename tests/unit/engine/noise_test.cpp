@@ -366,7 +366,7 @@ void expect_finite(const Program& program, const vec3<T>& normal, T position, T 
 
 TEST(NoiseLayer, NoNumberOfADocumentAndNoFragmentMakesNaN) {
   const double sizes[] = {1e-12, 1, 1e12};
-  for (const NoiseKind kind : {NoiseKind::perlin, NoiseKind::worley, NoiseKind::turbulence})
+  for (const NoiseKind kind : {NoiseKind::perlin, NoiseKind::worley, NoiseKind::ridged})
     for (const double frequency : {5e-324, 1.0, 1e12})
       for (const double power : {1e-9, 1.0, 1e12})
         for (const double scale : {0.0, 1.0, -1e12})
