@@ -7,6 +7,7 @@
 #include <surfgrad/fractal.hpp>
 #include <surfgrad/frame.hpp>
 #include <surfgrad/gradient.hpp>
+#include <surfgrad/hex_tiles.hpp>
 #include <surfgrad/noise.hpp>
 #include <surfgrad/noise_hash.hpp>
 #include <surfgrad/parallax.hpp>
@@ -15,6 +16,7 @@
 #include <surfgrad/resolve.hpp>
 #include <surfgrad/scalar.hpp>
 #include <surfgrad/screen.hpp>
+#include <surfgrad/trigonometry.hpp>
 #include <surfgrad/triplanar.hpp>
 #include <surfgrad/vec.hpp>
 #include <surfgrad/worley.hpp>

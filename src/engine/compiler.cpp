@@ -1,7 +1,6 @@
 #include "engine/compiler.hpp"
 
-#include <cmath>
-#include <numbers>
+#include <surfgrad/trigonometry.hpp>
 
 namespace surfgrad::engine {
 namespace {
@@ -34,12 +33,8 @@ image::Filter filter_of(stack::Filter filter) {
 /// texel grid.
 vec2<double> rotation_of(double degrees) {
   const double turn = std::remainder(degrees, 360.0); // exact, within half a turn
-  if (turn == 0) return {1, 0};
-  if (turn == 90) return {0, 1};
-  if (turn == -90) return {0, -1};
-  if (std::abs(turn) == 180) return {-1, 0};
-  const double radians = turn * std::numbers::pi / 180.0;
-  return {std::cos(radians), std::sin(radians)};
+  const SinCos<double> r = sin_cos_turns(turn / 360);
+  return {r.cos, r.sin};
 }
 
 } // namespace
@@ -60,9 +55,24 @@ Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image
   return {tiled(use, std::move(map)), slot};
 }
 
+BumpMap Compiler::bump_map(const stack::BumpMap& use, const stack::FileName& file) const {
+  switch (use.content) {
+  case stack::Content::derivative:
+    return {tiled(use, maps_.derivatives(file, use.derivative, use.green))};
+  case stack::Content::height: {
+    const image::Wraps wraps{wrap_of(use.wrap), wrap_of(use.wrap_t.value_or(use.wrap))};
+    return {tiled(use, maps_.height_slopes(file, use.height_channel, wraps)), true, use.height};
+  }
+  case stack::Content::normal:
+    break;
+  }
+  return {tiled(use, maps_.slopes(file, use.channels, use.green))};
+}
+
 Influence Compiler::influence(const stack::LayerCommon& common) const {
   Influence influence{common.scale, common.opacity, common.blend == stack::Blend::mix, std::nullopt};
-  if (common.mask) influence.mask = texture(*common.mask, maps_.channel(*common.mask));
+  if (common.mask)
+    influence.mask = texture(*common.mask, maps_.weights(common.mask->file, common.mask->channel));
   return influence;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/bump_map.hpp"
 #include "engine/layers/influence.hpp"
 #include "engine/layers/noise.hpp"
 #include "engine/layers/normal_map.hpp"
@@ -24,6 +25,7 @@ class Compiler {
   [[nodiscard]] MapLibrary& maps() const { return maps_; }
   [[nodiscard]] TiledMap tiled(const stack::Tiled& use, std::shared_ptr<const image::Map> map) const;
   [[nodiscard]] Texture texture(const stack::Texture& use, std::shared_ptr<const image::Map> map) const;
+  [[nodiscard]] BumpMap bump_map(const stack::BumpMap& use, const stack::FileName& file) const;
   [[nodiscard]] Influence influence(const stack::LayerCommon& common) const;
 
  private:

@@ -1,7 +1,9 @@
 #include "engine/map_library.hpp"
 
 #include "diagnostic/error.hpp"
+#include "image/height_map.hpp"
 
+#include <bit>
 #include <string>
 
 namespace surfgrad::engine {
@@ -19,52 +21,87 @@ image::NormalChannels channels_of(stack::Channels channels) {
   return image::NormalChannels::automatic;
 }
 
+std::string word_of(stack::Green green) { return green == stack::Green::up ? "up" : "down"; }
+
+template <class Enum>
+std::string number_of(Enum word) {
+  return std::to_string(static_cast<int>(word));
+}
+
 } // namespace
 
-void MapLibrary::require_channels(const image::Image& image, int least, const stack::Map& use,
+template <class Make>
+std::shared_ptr<const image::Map> MapLibrary::made_once(const std::string& kind, const stack::FileName& file,
+                                                        const Make& make) {
+  auto& map = maps_[kind + " " + file.path.string()];
+  if (!map) map = std::make_shared<const image::Map>(make(find_(file.path)));
+  return map;
+}
+
+void MapLibrary::require_channels(const image::Image& image, int least, const stack::FileName& file,
                                   const char* what) const {
   // Opacity is no part of a vector: it does not count.
   const int channels = image.channels - (image.has_alpha ? 1 : 0);
   if (channels >= least) return;
-  const std::string namer = document_.filename().string() + ":" + std::to_string(use.file.line) + ": ";
+  const std::string namer = document_.filename().string() + ":" + std::to_string(file.line) + ": ";
   throw InputError(
-      {.file = use.file.path,
-       .place = use.file.line > 0 ? "(named by " + namer + use.file.key + ")" : use.file.key,
+      {.file = file.path,
+       .place = file.line > 0 ? "(named by " + namer + file.key + ")" : file.key,
        .problem = "has " + std::to_string(channels) + (channels == 1 ? " channel" : " channels"),
        .remedy = what + std::string(least == 3 ? " of x, y and z needs three" : " needs two or three")});
 }
 
-std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::TangentMap& use) {
-  const bool green_up = use.green == stack::Green::up;
-  auto& map = maps_["slopes " + std::to_string(static_cast<int>(use.channels)) +
-                    (green_up ? " up " : " down ") + use.file.path.string()];
-  if (!map) {
-    const image::Image& image = find_(use.file.path);
-    require_channels(image, use.channels == stack::Channels::xyz ? 3 : 2, use, "a normal map");
-    image::SlopeMap slopes = image::make_slope_map(image, channels_of(use.channels), green_up);
+std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::FileName& file, stack::Channels channels,
+                                                     stack::Green green) {
+  return made_once("slopes " + number_of(channels) + word_of(green), file, [&](const image::Image& image) {
+    require_channels(image, channels == stack::Channels::xyz ? 3 : 2, file, "a normal map");
+    image::SlopeMap slopes = image::make_slope_map(image, channels_of(channels), green == stack::Green::up);
     if (slopes.inward_texels > 0)
-      inward_.push_back({use.file.path, slopes.inward_texels, std::int64_t{image.width} * image.height});
-    map = std::make_shared<image::Map>(std::move(slopes.map));
-  }
-  return map;
+      inward_.push_back({file.path, slopes.inward_texels, std::int64_t{image.width} * image.height});
+    return std::move(slopes.map);
+  });
 }
 
-std::shared_ptr<const image::Map> MapLibrary::directions(const stack::Map& use) {
-  const bool green_up = use.green == stack::Green::up;
-  auto& map = maps_[std::string("directions") + (green_up ? " up " : " down ") + use.file.path.string()];
-  if (!map) {
-    const image::Image& image = find_(use.file.path);
-    require_channels(image, 3, use, "an object-space normal map");
-    map = std::make_shared<image::Map>(image::make_direction_map(image, green_up));
-  }
-  return map;
+std::shared_ptr<const image::Map>
+MapLibrary::derivatives(const stack::FileName& file, const stack::DerivativeCode& code, stack::Green green) {
+  const auto range_bits = std::to_string(std::bit_cast<std::uint64_t>(code.range));
+  return made_once("derivatives " + range_bits + number_of(code.neutral) + word_of(green), file,
+                   [&](const image::Image& image) {
+                     require_channels(image, 2, file, "a derivative map");
+                     return image::make_derivative_map(image, code.range, green == stack::Green::up,
+                                                       code.neutral == stack::NeutralCode::whole
+                                                           ? image::NeutralCode::whole
+                                                           : image::NeutralCode::between);
+                   });
 }
 
-std::shared_ptr<const image::Map> MapLibrary::channel(const stack::Mask& use) {
-  const int channel = static_cast<int>(use.channel);
-  auto& map = maps_["channel " + std::to_string(channel) + " " + use.file.path.string()];
-  if (!map) map = std::make_shared<image::Map>(image::make_channel_map(find_(use.file.path), channel));
-  return map;
+std::shared_ptr<const image::Map> MapLibrary::heights(const stack::FileName& file,
+                                                      stack::MaskChannel channel) {
+  return made_once("heights " + number_of(channel), file, [&](const image::Image& image) {
+    return image::make_height_map(image, static_cast<int>(channel));
+  });
+}
+
+std::shared_ptr<const image::Map> MapLibrary::height_slopes(const stack::FileName& file,
+                                                            stack::MaskChannel channel, image::Wraps wraps) {
+  return made_once("height slopes " + number_of(channel) + number_of(wraps.s) + number_of(wraps.t), file,
+                   [&](const image::Image& image) {
+                     return image::make_height_slopes(image, static_cast<int>(channel), wraps);
+                   });
+}
+
+std::shared_ptr<const image::Map> MapLibrary::directions(const stack::FileName& file, stack::Green green) {
+  return made_once("directions " + word_of(green), file, [&](const image::Image& image) {
+    require_channels(image, 3, file, "an object-space normal map");
+    return image::make_direction_map(image, green == stack::Green::up);
+  });
+}
+
+std::shared_ptr<const image::Map> MapLibrary::weights(const stack::FileName& file,
+                                                      stack::MaskChannel channel) {
+  return made_once("weights " + number_of(channel), file, [&](const image::Image& image) {
+    return image::make_channel_map(image, static_cast<int>(channel));
+  });
 }
 
 } // namespace surfgrad::engine

@@ -2,6 +2,8 @@
 
 #include "image/image.hpp"
 #include "image/map.hpp"
+#include "image/sampler.hpp"
+#include "stack/bump_map.hpp"
 #include "stack/map.hpp"
 
 #include <cstdint>
@@ -23,10 +25,22 @@ class MapLibrary {
                       std::filesystem::path document = {})
       : find_(std::move(find)), document_(std::move(document)) {}
 
-  /// These throw InputError where the image has too few channels.
-  std::shared_ptr<const image::Map> slopes(const stack::TangentMap& use);
-  std::shared_ptr<const image::Map> directions(const stack::Map& use);
-  std::shared_ptr<const image::Map> channel(const stack::Mask& use);
+  // These throw InputError where the image has too few channels.
+
+  /// A tangent-space normal map as slopes.
+  std::shared_ptr<const image::Map> slopes(const stack::FileName& file, stack::Channels channels,
+                                           stack::Green green);
+  /// A derivative map as slopes.
+  std::shared_ptr<const image::Map> derivatives(const stack::FileName& file,
+                                                const stack::DerivativeCode& code, stack::Green green);
+  /// One channel's heights, and their slopes in height per whole map.
+  std::shared_ptr<const image::Map> heights(const stack::FileName& file, stack::MaskChannel channel);
+  std::shared_ptr<const image::Map> height_slopes(const stack::FileName& file, stack::MaskChannel channel,
+                                                  image::Wraps wraps);
+  /// An object- or world-space normal map as directions.
+  std::shared_ptr<const image::Map> directions(const stack::FileName& file, stack::Green green);
+  /// One channel as weights.
+  std::shared_ptr<const image::Map> weights(const stack::FileName& file, stack::MaskChannel channel);
 
   /// A normal map with texels that point into the surface (z <= 0), which no height field has.
   struct InwardTexels {
@@ -37,7 +51,12 @@ class MapLibrary {
   [[nodiscard]] const std::vector<InwardTexels>& inward_texels() const { return inward_; }
 
  private:
-  void require_channels(const image::Image& image, int least, const stack::Map& use, const char* what) const;
+  /// The map of this name, made when it is first asked for.
+  template <class Make>
+  std::shared_ptr<const image::Map> made_once(const std::string& kind, const stack::FileName& file,
+                                              const Make& make);
+  void require_channels(const image::Image& image, int least, const stack::FileName& file,
+                        const char* what) const;
 
   std::function<const image::Image&(const std::filesystem::path&)> find_;
   std::filesystem::path document_;

@@ -3,12 +3,15 @@
 #include "io/gltf_uri.hpp"
 #include "io/image_file.hpp"
 
+#include <surfgrad/trigonometry.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -115,7 +118,8 @@ class Materials {
     const double angle = transform.Has("rotation") ? transform.Get("rotation").GetNumberAsDouble() : 0.0;
     texture.tile = scale;
     texture.rotate_rad = angle;
-    texture.offset = {offset.x + std::sin(angle) * scale.y, 1.0 - offset.y - std::cos(angle) * scale.y};
+    const SinCos<double> r = sin_cos_turns(angle / (2 * std::numbers::pi));
+    texture.offset = {offset.x + r.sin * scale.y, 1.0 - offset.y - r.cos * scale.y};
     if (transform.Has("texCoord")) texture.uv_set = transform.Get("texCoord").GetNumberAsInt();
   }
 

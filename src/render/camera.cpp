@@ -2,10 +2,11 @@
 
 #include "mesh/bounds.hpp"
 
+#include <surfgrad/trigonometry.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace surfgrad::render {
 namespace {
@@ -16,7 +17,7 @@ constexpr double filled = 0.94;
 /// wide view holds every vertex may put one of them into the eye.
 constexpr double clearance = 0.05;
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+SinCos<double> sin_cos_degrees(double degrees) { return sin_cos_turns(degrees / 360); }
 
 template <class Visit>
 void for_each_vertex(const scene::Scene& scene, const Visit& visit) {
@@ -37,9 +38,11 @@ void look_along(Pinhole& camera, vec3<double> forward) {
 }
 
 /// Towards the origin from yaw and pitch. Yaw gives the horizon, so it also turns a view straight down.
-void look_from(Pinhole& camera, double yaw, double pitch) {
-  camera.forward = {-std::sin(yaw) * std::cos(pitch), -std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
-  camera.right = {std::cos(yaw), 0, -std::sin(yaw)};
+void look_from(Pinhole& camera, double yaw_deg, double pitch_deg) {
+  const SinCos<double> yaw = sin_cos_degrees(yaw_deg);
+  const SinCos<double> pitch = sin_cos_degrees(pitch_deg);
+  camera.forward = {-yaw.sin * pitch.cos, -pitch.sin, -yaw.cos * pitch.cos};
+  camera.right = {yaw.cos, 0, -yaw.sin};
   camera.up = cross(camera.right, camera.forward);
 }
 
@@ -64,7 +67,8 @@ mat4<double> Pinhole::relative_from_screen(int width, int height) const {
 
 Pinhole place_camera(const scene::Scene& scene, int width, int height) {
   const stack::Camera& view = scene.camera;
-  const double tan_half = std::tan(radians(view.fov_deg) / 2);
+  const SinCos<double> half_view = sin_cos_degrees(view.fov_deg / 2);
+  const double tan_half = half_view.sin / half_view.cos;
   Pinhole camera{};
   camera.focal_px = 0.5 * height / tan_half * view.zoom;
 
@@ -80,7 +84,7 @@ Pinhole place_camera(const scene::Scene& scene, int width, int height) {
     camera.near = 1e-5 * size;
     return camera;
   }
-  look_from(camera, radians(view.yaw_deg), radians(view.pitch_deg));
+  look_from(camera, view.yaw_deg, view.pitch_deg);
   // Along one axis with tangent t, a camera shifted by c sees q at distance d where
   // |axis q - c| <= t (d + forward q). The largest axis q - t forward q and -axis q - t forward q
   // over all vertices give the c that centres the object and the least d that frames it.

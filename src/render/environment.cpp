@@ -1,5 +1,7 @@
 #include "render/environment.hpp"
 
+#include <surfgrad/trigonometry.hpp>
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -19,10 +21,9 @@ constexpr int source_width = 128;
 constexpr int source_height = 64;
 
 vec3<double> direction_of(double column, double row, int width, int height) {
-  const double azimuth = 2 * pi * (column + 0.5) / width; // 0 towards +z, growing towards -x
-  const double elevation = pi * ((row + 0.5) / height - 0.5);
-  return {-std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-          std::cos(azimuth) * std::cos(elevation)};
+  const SinCos<double> azimuth = sin_cos_turns((column + 0.5) / width); // 0 towards +z, growing towards -x
+  const SinCos<double> elevation = sin_cos_turns(0.5 * ((row + 0.5) / height - 0.5));
+  return {-azimuth.sin * elevation.cos, elevation.sin, azimuth.cos * elevation.cos};
 }
 
 struct Patch {
@@ -58,10 +59,11 @@ std::vector<Patch> patches_of(const image::Image& panorama) {
       for (int v = v_begin; v < v_end; ++v)
         for (int u = u_begin; u < u_end; ++u) sum = sum + texel_rgb(panorama, u, v);
       const double count = static_cast<double>(u_end - u_begin) * (v_end - v_begin);
-      const double low = pi * (static_cast<double>(y) / height - 0.5);
-      const double high = pi * (static_cast<double>(y + 1) / height - 0.5);
+      const auto sine_at = [](int row) {
+        return sin_cos_turns(0.5 * (static_cast<double>(row) / height - 0.5)).sin;
+      };
       patches.push_back({direction_of(x, y, width, height), (1.0 / count) * sum,
-                         2 * pi / width * (std::sin(high) - std::sin(low))});
+                         2 * pi / width * (sine_at(y + 1) - sine_at(y))});
     }
   return patches;
 }

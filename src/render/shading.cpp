@@ -1,5 +1,7 @@
 #include "render/shading.hpp"
 
+#include <surfgrad/trigonometry.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -45,10 +47,10 @@ vec2<double> integrate_albedo(double cos_view) {
   for (int i = 0; i < rings; ++i)
     for (int j = 0; j < spokes; ++j) {
       const double e = (i + 0.5) / rings;
-      const double phi = 2 * pi * (j + 0.5) / spokes;
+      const SinCos<double> spoke = sin_cos_turns((j + 0.5) / spokes);
       const double c = std::sqrt((1 - e) / (1 + (alpha * alpha - 1) * e));
       const double s = std::sqrt(std::max(0.0, 1 - c * c));
-      const vec3<double> h{s * std::cos(phi), s * std::sin(phi), c};
+      const vec3<double> h{s * spoke.cos, s * spoke.sin, c};
       const double vh = dot(v, h);
       const double cos_light = 2 * vh * h.z - v.z;
       if (vh <= 0 || cos_light <= 0) continue;

@@ -1,8 +1,7 @@
 #include "scene/demo_maps.hpp"
 #include "scene/scene.hpp"
 
-#include <cmath>
-#include <numbers>
+#include <surfgrad/trigonometry.hpp>
 
 namespace surfgrad::scene {
 namespace {
@@ -20,11 +19,11 @@ mesh::TriangleMesh torus() {
     for (int i = 0; i <= around; ++i) {
       const double s = static_cast<double>(i) / around;
       const double t = static_cast<double>(j) / across;
-      // The last column and row repeat the first exactly: no crack, no rounding of 2 pi.
-      const double u = 2 * std::numbers::pi * (i % around) / around;
-      const double v = 2 * std::numbers::pi * (j % across) / across;
-      const vec3<double> n{std::cos(v) * std::sin(u), std::sin(v), std::cos(v) * std::cos(u)};
-      const vec3<double> ring{std::sin(u), 0, std::cos(u)};
+      // A whole turn is none: the last column and row repeat the first exactly, no crack.
+      const SinCos<double> u = sin_cos_turns(s);
+      const SinCos<double> v = sin_cos_turns(t);
+      const vec3<double> n{v.cos * u.sin, v.sin, v.cos * u.cos};
+      const vec3<double> ring{u.sin, 0, u.cos};
       const vec3<double> p = ring_radius * ring + tube_radius * n;
       const auto narrow = [](vec3<double> w) {
         return vec3<float>{static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)};

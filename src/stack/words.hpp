@@ -18,6 +18,11 @@ enum class Filter { nearest, bilinear, trilinear };
 /// Which channels of a normal map hold the vector. xy reconstructs z from the unit length; automatic
 /// is xy for a two-channel file or one of constant blue, else xyz.
 enum class Channels { automatic, xyz, xy };
+/// What the texels of a projected map are: tangent-space normals, slopes, or heights.
+enum class Content { normal, derivative, height };
+/// Which code of an 8-bit derivative map means flat: 127.5, so that the codes span the range evenly and
+/// none is exactly flat, or the whole code 128, as signed formats have it (32767.5 and 32768 of 16 bits).
+enum class NeutralCode { between, whole };
 /// Whether the green channel of a normal map points along +t (up) or against it.
 enum class Green { up, down };
 /// The frame a tangent-space normal map was made for: MikkTSpace at the vertices, or the frame derived
@@ -59,6 +64,13 @@ inline constexpr auto words_of<Filter> = std::to_array<Word<Filter>>({{"nearest"
 template <>
 inline constexpr auto words_of<Channels> = std::to_array<Word<Channels>>({{"xyz", Channels::xyz},
                                                                           {"xy", Channels::xy}});
+template <>
+inline constexpr auto words_of<Content> = std::to_array<Word<Content>>({{"normal", Content::normal},
+                                                                        {"derivative", Content::derivative},
+                                                                        {"height", Content::height}});
+template <>
+inline constexpr auto words_of<NeutralCode> =
+    std::to_array<Word<NeutralCode>>({{"between", NeutralCode::between}, {"whole", NeutralCode::whole}});
 template <>
 inline constexpr auto words_of<Green> = std::to_array<Word<Green>>({{"up", Green::up},
                                                                     {"down", Green::down}});

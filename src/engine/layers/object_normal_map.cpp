@@ -6,7 +6,7 @@ namespace surfgrad::engine {
 
 ObjectNormalMap compiled(const stack::ObjectNormalMapLayer& layer, const Compiler& compiler) {
   return {compiler.influence(layer.common),
-          compiler.texture(layer.map, compiler.maps().directions(layer.map)),
+          compiler.texture(layer.map, compiler.maps().directions(layer.map.file, layer.map.green)),
           layer.space == stack::Space::world};
 }
 

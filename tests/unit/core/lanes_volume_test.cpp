@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <surfgrad/decal.hpp>
 #include <surfgrad/fractal.hpp>
+#include <surfgrad/hex_tiles.hpp>
 #include <surfgrad/noise.hpp>
 #include <surfgrad/parallax_march.hpp>
 #include <surfgrad/worley.hpp>
@@ -43,6 +44,12 @@ template <class T>
 std::array<T, 10> flat(const DecalDirection<T>& d) {
   return {d.direction.x, d.direction.y,  d.direction.z,  d.lookup.x,     d.lookup.y,
           d.lookup.z,    d.unchanging.x, d.unchanging.y, d.unchanging.z, d.falloff};
+}
+template <class T>
+std::array<T, 15> flat(const HexTiles<T>& h) {
+  return {h.st[0].x,       h.st[0].y,       h.st[1].x,       h.st[1].y,       h.st[2].x,
+          h.st[2].y,       h.weight[0],     h.weight[1],     h.weight[2],     h.rotation[0].x,
+          h.rotation[0].y, h.rotation[1].x, h.rotation[1].y, h.rotation[2].x, h.rotation[2].y};
 }
 
 /// Compares `call` of a pack of points with `call` of each.
@@ -110,6 +117,23 @@ TEST(LanesVolume, DecalsEqualFloatBitForBit) {
     using T = decltype(p.x);
     return flat(capsule_decal(frame(p), p, T(0.5f), T(0.9f), T(0.25f)));
   });
+}
+
+TEST(LanesVolume, HexTilesEqualFloatBitForBit) {
+  for (const double extent : {20.0, 1e12}) { // triangles of both kinds; beyond the lattice
+    expect_equal_lanes("hex_tiles", extent, [](auto p) {
+      using T = decltype(p.x);
+      return flat(hex_tiles(vec2<T>{p.x, p.y}, 0.8f));
+    });
+    expect_equal_lanes("hex_derivative", extent, [](auto p) {
+      using T = decltype(p.x);
+      const HexTiles<T> tiles = hex_tiles(vec2<T>{p.x, p.y});
+      const vec2<T> deriv[3] = {{p.z, p.x}, {p.y, p.z}, {p.z - p.x, p.x * p.y}};
+      const vec3<T> weights = hex_weights(tiles, deriv, 5, 2);
+      const vec2<T> d = hex_derivative(tiles, weights, deriv);
+      return std::array{weights.x, weights.y, weights.z, d.x, d.y};
+    });
+  }
 }
 
 TEST(LanesVolume, MarchEqualsFloatBitForBit) { // lanes meet the map after different numbers of steps

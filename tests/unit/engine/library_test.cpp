@@ -12,32 +12,42 @@ namespace {
 
 using surfgrad::test::Random;
 
-stack::TangentMap use_of(const char* file) {
-  stack::TangentMap use;
-  use.file = {file, 7, "layers[1].map"};
-  return use;
-}
+stack::FileName file_of(const char* file) { return {file, 7, "layers[1].map"}; }
+
+constexpr stack::Channels automatic = stack::Channels::automatic;
+constexpr stack::Green up = stack::Green::up;
 
 TEST(MapLibrary, MakesEachCombinationOnce) {
   Random random(171);
   const image::Image image = surfgrad::test::random_normal_map(random, 4, 4);
   MapLibrary maps([&](const std::filesystem::path&) -> const image::Image& { return image; });
-  stack::TangentMap use = use_of("a.png");
-  const auto first = maps.slopes(use);
-  EXPECT_EQ(maps.slopes(use), first);
-  use.green = stack::Green::down;
-  EXPECT_NE(maps.slopes(use), first);
-  use = use_of("b.png");
-  EXPECT_NE(maps.slopes(use), first);
-  EXPECT_NE(maps.directions(use_of("a.png")), first);
+  const stack::FileName a = file_of("a.png");
+  const auto first = maps.slopes(a, automatic, up);
+  EXPECT_EQ(maps.slopes(a, automatic, up), first);
+  EXPECT_NE(maps.slopes(a, automatic, stack::Green::down), first);
+  EXPECT_NE(maps.slopes(file_of("b.png"), automatic, up), first);
+  EXPECT_NE(maps.directions(a, up), first);
+  const auto steep = maps.derivatives(a, {.range = 2}, up);
+  EXPECT_NE(steep, first);
+  EXPECT_NE(maps.derivatives(a, {.range = 3}, up), steep);
+  EXPECT_NE(maps.derivatives(a, {.range = 2, .neutral = stack::NeutralCode::whole}, up), steep);
+  EXPECT_EQ(maps.derivatives(a, {.range = 2}, up), steep);
+  const auto red = maps.heights(a, stack::MaskChannel::r);
+  EXPECT_NE(maps.heights(a, stack::MaskChannel::g), red);
+  EXPECT_NE(maps.weights(a, stack::MaskChannel::r), red);
+  const auto repeated = maps.height_slopes(a, stack::MaskChannel::r, {});
+  EXPECT_NE(maps.height_slopes(a, stack::MaskChannel::r, {image::Wrap::clamp, image::Wrap::repeat}),
+            repeated);
+  EXPECT_NE(maps.height_slopes(a, stack::MaskChannel::g, {}), repeated);
+  EXPECT_EQ(maps.height_slopes(a, stack::MaskChannel::r, {}), repeated);
   EXPECT_TRUE(maps.inward_texels().empty());
 }
 
 TEST(MapLibrary, CountsTexelsThatPointInwards) {
   const image::Image image = surfgrad::test::constant_image(3, 2, {0.9, 0.5, 0.2});
   MapLibrary maps([&](const std::filesystem::path&) -> const image::Image& { return image; });
-  (void)maps.slopes(use_of("in.png"));
-  (void)maps.slopes(use_of("in.png"));
+  (void)maps.slopes(file_of("in.png"), automatic, up);
+  (void)maps.slopes(file_of("in.png"), automatic, up);
   ASSERT_EQ(maps.inward_texels().size(), 1u);
   EXPECT_EQ(maps.inward_texels()[0].file, "in.png");
   EXPECT_EQ(maps.inward_texels()[0].count, 6);
@@ -56,13 +66,10 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
     }
     return "";
   };
-  const auto slopes = [](MapLibrary& maps) { (void)maps.slopes(use_of("n.png")); };
-  const auto xyz = [](MapLibrary& maps) {
-    stack::TangentMap use = use_of("n.png");
-    use.channels = stack::Channels::xyz;
-    (void)maps.slopes(use);
-  };
-  const auto directions = [](MapLibrary& maps) { (void)maps.directions(use_of("n.png")); };
+  const auto slopes = [](MapLibrary& maps) { (void)maps.slopes(file_of("n.png"), automatic, up); };
+  const auto xyz = [](MapLibrary& maps) { (void)maps.slopes(file_of("n.png"), stack::Channels::xyz, up); };
+  const auto derivatives = [](MapLibrary& maps) { (void)maps.derivatives(file_of("n.png"), {}, up); };
+  const auto directions = [](MapLibrary& maps) { (void)maps.directions(file_of("n.png"), up); };
   EXPECT_EQ(refusal(1, slopes),
             "n.png: (named by s.json:7: layers[1].map): has 1 channel; a normal map needs two or three");
   EXPECT_EQ(refusal(2, slopes), "");
@@ -70,6 +77,8 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
       refusal(2, xyz),
       "n.png: (named by s.json:7: layers[1].map): has 2 channels; a normal map of x, y and z needs three");
   EXPECT_EQ(refusal(3, xyz), "");
+  EXPECT_NE(refusal(1, derivatives), "");
+  EXPECT_EQ(refusal(2, derivatives), "");
   EXPECT_NE(refusal(2, directions), "");
   EXPECT_EQ(refusal(4, directions), "");
 }

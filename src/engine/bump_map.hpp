@@ -1,0 +1,27 @@
+#pragma once
+
+#include "engine/texture.hpp"
+#include "image/height_map.hpp"
+
+namespace surfgrad::engine {
+
+/// A projected image of bumps, whatever its file held: its texels are slopes, or derivatives of heights.
+struct BumpMap {
+  TiledMap tiled{};
+  bool heights = false; ///< texels are derivatives of heights by the map, else slopes
+  double height = 1;    ///< displacement of a height of 1, in units of the coordinates' space
+};
+
+/// Derivative along the coordinates st of a bump map: slopes, dimensionless and independent of the
+/// tiling, or for heights (dh/ds, dh/dt) in units of the height, which the tiling multiplies.
+template <LaneScalar T>
+[[nodiscard]] vec2<T> derivative(const BumpMap& bumps, vec2<T> st, vec2<T> footprint_dx,
+                                 vec2<T> footprint_dy) {
+  const std::array<T, 2> texel = sample<2>(bumps.tiled, st, footprint_dx, footprint_dy);
+  const vec2<T> d{texel[0], texel[1]};
+  if (!bumps.heights) return along_coordinate(bumps.tiled, d);
+  const vec2<T> dh = image::mirrored_slope(map_coordinate(bumps.tiled, st), d, bumps.tiled.wrap);
+  return constant<T>(bumps.height) * by_coordinate(bumps.tiled, dh);
+}
+
+} // namespace surfgrad::engine
