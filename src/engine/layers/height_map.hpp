@@ -123,11 +123,13 @@ template <LaneScalar T>
   const vec3<T> none{zero, zero, zero};
   if (!world) {
     // Displaced first, then transformed (Golubev, equation 33): the whole N - G through the inverse
-    // transpose, which is transform_normal up to a positive factor.
-    const vec3<T> displaced = normalize_or_zero(normal - saturated(g));
+    // transpose, which is transform_normal up to a positive factor. The resolve's sign enters twice: on
+    // a back face in mode flip the surface is the front's, seen from behind.
+    const T sign = point.frame.resolve_sign;
+    const vec3<T> displaced = normalize_or_zero(normal - sign * saturated(g));
     const mask_t<T> flat = max_abs(g) == zero; // adds nothing, rounding neither
-    g = from_perturbed_normal(point.frame.normal,
-                              transpose(in_lanes<T>(point.placement.inverse_linear)) * displaced);
+    g = sign * from_perturbed_normal(point.frame.normal,
+                                     transpose(in_lanes<T>(point.placement.inverse_linear)) * displaced);
     g = select<T>(flat, none, g);
   }
   return select<T>(collapsed, none, g);
