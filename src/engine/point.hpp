@@ -69,15 +69,19 @@ template <Scalar T>
 /// bump follows the object: it is displaced there, then transformed (Golubev, equation 33). Linear in
 /// the gradient.
 ///
-/// degenerate  a transform without inverse gives zero for gradients in object space
+/// degenerate  a transform without inverse gives zero for gradients in object space; a result beyond the
+///             scalar's range saturates
 template <Scalar T>
 [[nodiscard]] vec3<T> from_gradient_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
   const vec3<T> n = point.frame.normal;
   if (world) return from_volume_gradient(n, gradient);
   // transform_normal(M, N - G) for N = M^T n / |M^T n|, scaled so that its part along n is n itself.
   const T stretch = length(transpose(in_lanes<T>(point.placement.linear)) * n);
-  const vec3<T> g = transpose(in_lanes<T>(point.placement.inverse_linear)) * gradient;
-  return from_volume_gradient(n, stretch * g);
+  // The gradient in units of its own magnitude: a steep one in a tiny object must not overflow on the way.
+  const T size = max_abs(gradient);
+  const vec3<T> unit = reciprocal_or_zero(size) * gradient;
+  const vec3<T> g = stretch * (transpose(in_lanes<T>(point.placement.inverse_linear)) * unit);
+  return from_volume_gradient(n, saturated(size * g));
 }
 
 } // namespace surfgrad::engine

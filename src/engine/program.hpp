@@ -2,7 +2,9 @@
 
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
+#include "engine/layers/planar.hpp"
 #include "engine/layers/resolve.hpp"
+#include "engine/layers/triplanar.hpp"
 #include "engine/map_library.hpp"
 #include "raster/surface.hpp"
 #include "stack/stack.hpp"
@@ -14,7 +16,7 @@ namespace surfgrad::engine {
 
 /// The layers of one material, ready to run: maps loaded, numbers folded.
 struct Program {
-  std::vector<std::variant<NormalMap, ObjectNormalMap, Resolve>> layers;
+  std::vector<std::variant<NormalMap, ObjectNormalMap, Planar, Triplanar, Resolve>> layers;
 };
 
 /// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the
