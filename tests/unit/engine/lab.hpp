@@ -47,6 +47,25 @@ inline stack::ObjectNormalMapLayer object_layer(const char* map, stack::Space sp
   return layer;
 }
 
+inline stack::PlanarLayer planar_layer(const char* map, PlaneAxis axis,
+                                       stack::Content content = stack::Content::normal) {
+  stack::PlanarLayer layer;
+  layer.file.path = map;
+  layer.axis = axis;
+  layer.map.content = content;
+  return layer;
+}
+
+/// maps  one for every plane, or one for each
+inline stack::TriplanarLayer
+triplanar_layer(const std::vector<const char*>& maps,
+                stack::TriplanarContent content = stack::TriplanarContent::normal) {
+  stack::TriplanarLayer layer;
+  for (const char* map : maps) layer.files.push_back({map});
+  layer.map.content = content;
+  return layer;
+}
+
 inline stack::Mask mask_of(const char* map, stack::MaskChannel channel = stack::MaskChannel::r) {
   stack::Mask mask;
   mask.file.path = map;
@@ -120,7 +139,16 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
   c.common.opacity = 0.2;
   stack::ObjectNormalMapLayer d = object_layer("d", stack::Space::world);
   d.common.scale = 0.1;
-  return {normal_layer("a"), b, c, d};
+  stack::PlanarLayer e = planar_layer("a", PlaneAxis::y, stack::Content::height);
+  e.space = stack::Space::world;
+  e.map.height = 0.05;
+  e.map.tile = {2, -1};
+  stack::TriplanarLayer f = triplanar_layer({"a", "b", "d"});
+  f.common.mask = mask_of("mask");
+  f.map.rotate_deg = -50;
+  stack::TriplanarLayer g = triplanar_layer({"c"}, stack::TriplanarContent::object_normal);
+  g.common.opacity = 0.1;
+  return {normal_layer("a"), b, c, d, e, f, g};
 }
 
 } // namespace surfgrad::engine::test
