@@ -55,8 +55,9 @@ Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image
   return {tiled(use, std::move(map)), slot};
 }
 
-BumpMap Compiler::bump_map(const stack::BumpMap& use, const stack::FileName& file) const {
-  switch (use.content) {
+BumpMap Compiler::bump_map(const stack::BumpCodes& use, stack::Content content,
+                           const stack::FileName& file) const {
+  switch (content) {
   case stack::Content::derivative:
     return {tiled(use, maps_.derivatives(file, use.derivative, use.green))};
   case stack::Content::height: {

@@ -38,6 +38,7 @@ struct Value {
 [[nodiscard]] std::size_t read_word(const Value& value, const Shape& shape); ///< index into shape.words
 [[nodiscard]] std::string read_text(const Value& value, const Shape& shape);
 [[nodiscard]] FileName read_file(const Value& value, const Shape& shape);
+[[nodiscard]] std::vector<FileName> read_files(const Value& value, const Shape& shape); ///< one or all
 [[nodiscard]] std::vector<double> read_vector(const Value& value, const Shape& shape);
 
 /// The word of `words` that a mistyped one most resembles; empty if none is near.
@@ -83,6 +84,12 @@ class Fields {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::file},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_file(value, shape); });
+  }
+  /// One file, or `count` of them.
+  Fields&& files(std::string_view key, std::vector<FileName> T::*member, int count) && {
+    return std::move(*this).add(
+        key, {.kind = Shape::Kind::files, .components = count},
+        [=](T& t, const Value& value, const Shape& shape) { t.*member = read_files(value, shape); });
   }
   Fields&& vector(std::string_view key, vec2<double> T::*member) && {
     return std::move(*this).add(key, {.kind = Shape::Kind::vector, .components = 2},

@@ -32,6 +32,8 @@ std::string expectation(const Shape& shape) {
     return "a string";
   case Shape::Kind::file:
     return "a file name";
+  case Shape::Kind::files:
+    return fmt::format("a file name or an array of {} file names", shape.components);
   case Shape::Kind::vector:
     return fmt::format("an array of {} numbers", shape.components);
   case Shape::Kind::tile:

@@ -27,6 +27,7 @@ struct Shape {
     word,      ///< one of `words`
     text,      ///< any string
     file,      ///< a file name
+    files,     ///< one file name or an array of `components`
     vector,    ///< an array of `components` numbers
     tile,      ///< one number or an array of two, none of them zero
     object,    ///< an object of the format named `object`

@@ -8,7 +8,9 @@
 #include "stack/layers/noise.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
+#include "stack/layers/planar.hpp"
 #include "stack/layers/resolve.hpp"
+#include "stack/layers/triplanar.hpp"
 #include "stack/view.hpp"
 
 #include <map>
@@ -19,7 +21,7 @@ namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
 using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer,
-                           NoiseLayer, ResolveLayer>;
+                           NoiseLayer, PlanarLayer, TriplanarLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

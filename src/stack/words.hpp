@@ -2,6 +2,7 @@
 
 /// The choices a stack document offers by name. The same words serve the command line.
 
+#include <surfgrad/triplanar.hpp>
 #include <surfgrad/worley.hpp>
 
 #include <array>
@@ -20,6 +21,8 @@ enum class Filter { nearest, bilinear, trilinear };
 enum class Channels { automatic, xyz, xy };
 /// What the texels of a projected map are: tangent-space normals, slopes, or heights.
 enum class Content { normal, derivative, height };
+/// The same for a triplanar projection, whose maps may also hold whole normals.
+enum class TriplanarContent { normal, derivative, height, object_normal };
 /// Which code of an 8-bit derivative map means flat: 127.5, so that the codes span the range evenly and
 /// none is exactly flat, or the whole code 128, as signed formats have it (32767.5 and 32768 of 16 bits).
 enum class NeutralCode { between, whole };
@@ -78,6 +81,12 @@ inline constexpr auto words_of<Content> = std::to_array<Word<Content>>({{"normal
                                                                         {"derivative", Content::derivative},
                                                                         {"height", Content::height}});
 template <>
+inline constexpr auto words_of<TriplanarContent> =
+    std::to_array<Word<TriplanarContent>>({{"normal", TriplanarContent::normal},
+                                           {"derivative", TriplanarContent::derivative},
+                                           {"height", TriplanarContent::height},
+                                           {"object_normal", TriplanarContent::object_normal}});
+template <>
 inline constexpr auto words_of<NeutralCode> =
     std::to_array<Word<NeutralCode>>({{"between", NeutralCode::between}, {"whole", NeutralCode::whole}});
 template <>
@@ -123,5 +132,17 @@ inline constexpr auto words_of<NoiseMethod> = std::to_array<Word<NoiseMethod>>(
 template <>
 inline constexpr auto words_of<WorleyKind> =
     std::to_array<Word<WorleyKind>>({{"f1", WorleyKind::f1}, {"f2_minus_f1", WorleyKind::f2_minus_f1}});
+template <>
+inline constexpr auto words_of<PlaneAxis> =
+    std::to_array<Word<PlaneAxis>>({{"x", PlaneAxis::x}, {"y", PlaneAxis::y}, {"z", PlaneAxis::z}});
+template <>
+inline constexpr auto words_of<Handedness> = std::to_array<Word<Handedness>>({{"left", Handedness::left},
+                                                                              {"right", Handedness::right}});
+template <>
+inline constexpr auto words_of<TextureOrigin> = std::to_array<Word<TextureOrigin>>(
+    {{"lower_left", TextureOrigin::lower_left}, {"upper_left", TextureOrigin::upper_left}});
+template <>
+inline constexpr auto words_of<TriplanarPlanes> = std::to_array<Word<TriplanarPlanes>>(
+    {{"mikkelsen", TriplanarPlanes::mikkelsen}, {"golubev", TriplanarPlanes::golubev}});
 
 } // namespace surfgrad::stack

@@ -22,6 +22,13 @@ struct StackText {
          t.tile.y, t.rotate_deg, t.offset.x, t.offset.y, static_cast<int>(t.wrap),
          static_cast<int>(t.filter));
   }
+  void codes(const BumpCodes& b) {
+    line("tile {} {} rotate {} offset {} {} wrap {} filter {}", b.tile.x, b.tile.y, b.rotate_deg, b.offset.x,
+         b.offset.y, static_cast<int>(b.wrap), static_cast<int>(b.filter));
+    line("channels {} green {} range {} neutral {} height_channel {} height {}", static_cast<int>(b.channels),
+         static_cast<int>(b.green), b.derivative.range, static_cast<int>(b.derivative.neutral),
+         static_cast<int>(b.height_channel), b.height);
+  }
   void map(const Map& m) {
     texture(m);
     line("green {}", static_cast<int>(m.green));
@@ -62,6 +69,21 @@ struct StackText {
          n.lacunarity, n.gain, n.power, n.frequency, n.offset.x, n.offset.y, n.offset.z);
     line("space {} method {}", static_cast<int>(l.space), static_cast<int>(l.method));
     common(l.common);
+  }
+  void operator()(const PlanarLayer& l) {
+    line("planar {} axis {} space {} content {}", l.file.path.string(), static_cast<int>(l.axis),
+         static_cast<int>(l.space), static_cast<int>(l.map.content));
+    common(l.common);
+    codes(l.map);
+  }
+  void operator()(const TriplanarLayer& l) {
+    line("triplanar sharpness {} space {} content {}", l.sharpness, static_cast<int>(l.space),
+         static_cast<int>(l.map.content));
+    for (const FileName& file : l.files) line("map {}", file.path.string());
+    line("convention {} {} {}", static_cast<int>(l.convention.handedness),
+         static_cast<int>(l.convention.origin), static_cast<int>(l.convention.planes));
+    common(l.common);
+    codes(l.map);
   }
   void operator()(const ResolveLayer&) { line("resolve"); }
   void layers(const std::vector<Layer>& list) {
