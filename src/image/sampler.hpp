@@ -39,8 +39,8 @@ struct Taps {
   T fraction;
 };
 
-/// i brought into [0, n): by one period where the coordinate repeats, else to the border. The upper
-/// limit also holds for NaN coordinates, whose index is 0.
+/// i brought into [0, n): by one period, by one reflection or to the border. Right for -n <= i < 2 n
+/// and, where n is 1, for any i. The upper limit also holds for NaN coordinates, whose index is 0.
 template <LaneScalar T>
 [[nodiscard]] index_t<T> wrap_index(index_t<T> i, index_t<T> n, Wrap wrap) {
   const index_t<T> zero = index_constant<T>(0);
@@ -48,6 +48,9 @@ template <LaneScalar T>
   if (wrap == Wrap::repeat) {
     i = select(i < zero, index_t<T>(i + n), i);
     i = select(last < i, index_t<T>(i - n), i);
+  } else if (wrap == Wrap::mirror) {
+    i = select(i < zero, index_t<T>(zero - i - index_constant<T>(1)), i);
+    i = select(last < i, index_t<T>(last + n - i), i);
   }
   i = select(i < zero, zero, i);
   return select(last < i, last, i);
@@ -122,6 +125,22 @@ template <int N, LaneScalar T>
                    mix<N, T>(texel(x.first, y.second), texel(x.second, y.second), x.fraction), y.fraction);
 }
 
+/// Blend of the two levels around a LOD, which is clamped to the pyramid; NaN is level 0.
+template <int N, LaneScalar T, class SampleLevel>
+[[nodiscard]] std::array<T, N> between_levels(int level_count, T lod, mask_t<T> active,
+                                              SampleLevel sample_at) {
+  const T last = T(static_cast<value_t<T>>(level_count - 1));
+  const T clamped = min(max(lod, T(value_t<T>(0))), last);
+  const T low = floor(clamped);
+  const T fraction = clamped - low;
+  const index_t<T> level = to_index(low);
+  const std::array<T, N> fine = sample_at(level);
+  const mask_t<T> between = active & (T(value_t<T>(0)) < fraction);
+  if (!any(between)) return fine;
+  const index_t<T> next = select(between, index_t<T>(level + index_constant<T>(1)), level);
+  return mix<N, T>(fine, sample_at(next), fraction);
+}
+
 } // namespace detail
 
 /// The N components of a map at a texture coordinate.
@@ -136,16 +155,9 @@ template <int N, LaneScalar T>
   const index_t<T> base = detail::index_constant<T>(0);
   if (filter != Filter::trilinear)
     return detail::sample_level<N, T>(map, st, base, wrap, filter == Filter::bilinear, active);
-  const T last = T(static_cast<value_t<T>>(map.level_count - 1));
-  const T clamped = min(max(lod, T(value_t<T>(0))), last);
-  const T low = floor(clamped);
-  const T fraction = clamped - low;
-  const index_t<T> level = to_index(low);
-  const std::array<T, N> fine = detail::sample_level<N, T>(map, st, level, wrap, true, active);
-  const mask_t<T> between = active & (T(value_t<T>(0)) < fraction);
-  if (!any(between)) return fine;
-  const index_t<T> next = select(between, index_t<T>(level + detail::index_constant<T>(1)), level);
-  return detail::mix<N, T>(fine, detail::sample_level<N, T>(map, st, next, wrap, true, active), fraction);
+  return detail::between_levels<N, T>(map.level_count, lod, active, [&](index_t<T> level) {
+    return detail::sample_level<N, T>(map, st, level, wrap, true, active);
+  });
 }
 
 } // namespace surfgrad::image
