@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/bump_map.hpp"
+#include "engine/layers/decal.hpp"
 #include "engine/layers/influence.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
@@ -26,6 +27,9 @@ class Compiler {
   [[nodiscard]] Texture texture(const stack::Texture& use, std::shared_ptr<const image::Map> map) const;
   [[nodiscard]] BumpMap bump_map(const stack::BumpMap& use, const stack::FileName& file) const;
   [[nodiscard]] Influence influence(const stack::LayerCommon& common) const;
+  [[nodiscard]] std::optional<Texture> mask(const stack::LayerWeight& common) const;
+  /// Cosine and sine of an angle in degrees; exact for whole quarter turns.
+  [[nodiscard]] static vec2<double> rotation(double degrees);
 
  private:
   const std::vector<raster::UvSlot>& slots_;
@@ -35,6 +39,7 @@ class Compiler {
 // One for each kind, beside its kernel in layers/.
 [[nodiscard]] NormalMap compiled(const stack::NormalMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] ObjectNormalMap compiled(const stack::ObjectNormalMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] Decals compiled(const stack::DecalLayer& layer, const Compiler& compiler);
 [[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
 
 } // namespace surfgrad::engine

@@ -38,6 +38,7 @@ struct Value {
 [[nodiscard]] std::size_t read_word(const Value& value, const Shape& shape); ///< index into shape.words
 [[nodiscard]] std::string read_text(const Value& value, const Shape& shape);
 [[nodiscard]] FileName read_file(const Value& value, const Shape& shape);
+[[nodiscard]] std::vector<FileName> read_files(const Value& value, const Shape& shape);
 [[nodiscard]] std::vector<double> read_vector(const Value& value, const Shape& shape);
 
 /// The word of `words` that a mistyped one most resembles; empty if none is near.
@@ -57,7 +58,9 @@ void read_object(const Value& value, T& target);
 template <class T>
 class Fields {
  public:
-  Fields&& number(std::string_view key, double T::*member, Range range = {}) && {
+  /// Member: double, or an optional one.
+  template <class Member>
+  Fields&& number(std::string_view key, Member T::*member, Range range = {}) && {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::number, .range = range},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_number(value, shape); });
@@ -83,6 +86,11 @@ class Fields {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::file},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_file(value, shape); });
+  }
+  Fields&& files(std::string_view key, std::vector<FileName> T::*member, std::vector<int> counts) && {
+    return std::move(*this).add(
+        key, {.kind = Shape::Kind::files, .counts = std::move(counts)},
+        [=](T& t, const Value& value, const Shape& shape) { t.*member = read_files(value, shape); });
   }
   Fields&& vector(std::string_view key, vec2<double> T::*member) && {
     return std::move(*this).add(key, {.kind = Shape::Kind::vector, .components = 2},
@@ -140,6 +148,13 @@ class Fields {
   template <class Part>
   Fields&& part(Part T::*member) && {
     return std::move(*this).template include<Part>([=](T& t) -> Part& { return t.*member; });
+  }
+  /// The keys of whatever `access` gives, in the same object.
+  ///
+  /// access  Part&(T&)
+  template <class Part, class Access>
+  Fields&& part(Access access) && {
+    return std::move(*this).template include<Part>(access);
   }
   /// Runs after all keys, with the object's own value: for lines, and for rules over several keys.
   Fields&& finally(std::function<void(T&, const Value&)> step) && {

@@ -31,6 +31,13 @@ enum class Space { object, world };
 /// negated; flip: that, and the bumps negated too; cull: nothing.
 enum class BackFaces { same, mirror, flip, cull };
 enum class MaskChannel { r, g, b, a };
+enum class DecalShape { box, cone, sphere, capsule, wedge };
+/// How a decal joins the sum of its pass: as Blend, or replace: the decal's own direction becomes the
+/// normal, G = (1 - w) * G + w * g of that direction.
+enum class DecalBlend { add, mix, replace };
+/// What a slope in the image of a cone or wedge adds to the volume gradient: with the perspective term, or
+/// without it, as in a box.
+enum class ConeGradient { exact, scale_free };
 
 template <class E>
 struct Word {
@@ -80,5 +87,18 @@ inline constexpr auto words_of<BackFaces> = std::to_array<Word<BackFaces>>({{"sa
 template <>
 inline constexpr auto words_of<MaskChannel> = std::to_array<Word<MaskChannel>>(
     {{"r", MaskChannel::r}, {"g", MaskChannel::g}, {"b", MaskChannel::b}, {"a", MaskChannel::a}});
+template <>
+inline constexpr auto
+    words_of<DecalShape> = std::to_array<Word<DecalShape>>({{"box", DecalShape::box},
+                                                            {"cone", DecalShape::cone},
+                                                            {"sphere", DecalShape::sphere},
+                                                            {"capsule", DecalShape::capsule},
+                                                            {"wedge", DecalShape::wedge}});
+template <>
+inline constexpr auto words_of<DecalBlend> = std::to_array<Word<DecalBlend>>(
+    {{"add", DecalBlend::add}, {"mix", DecalBlend::mix}, {"replace", DecalBlend::replace}});
+template <>
+inline constexpr auto words_of<ConeGradient> = std::to_array<Word<ConeGradient>>(
+    {{"exact", ConeGradient::exact}, {"scale_free", ConeGradient::scale_free}});
 
 } // namespace surfgrad::stack
