@@ -99,7 +99,7 @@ template <LaneScalar T>
   const mask_t<T> none = (max_abs(n) == zero) | (max_abs(direction.direction) == zero);
   const vec3<T> g = decal_gradient_from_normal(direction, v);
   return {select<T>(none, vec3<T>{zero, zero, zero}, g), direction.direction, direction.falloff,
-          direction.inside, direction.inside & none};
+          direction.inside, mask_t<T>(direction.inside & none)};
 }
 
 template <LaneScalar T>

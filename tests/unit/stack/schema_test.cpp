@@ -39,9 +39,9 @@ json rules_of(json value) {
   if (value.is_array())
     for (json& element : value) element = rules_of(element);
   if (!value.is_object()) return value;
-  static const std::set<std::string> kept = {"#/definitions/mask", "#/definitions/camera",
+  static const std::set<std::string> kept = {"#/definitions/mask",   "#/definitions/camera",
                                              "#/definitions/lights", "#/definitions/sun",
-                                             "#/definitions/layers"};
+                                             "#/definitions/layers", "#/definitions/decal_instance"};
   if (value.contains("$ref") && kept.count(value["$ref"]) == 0)
     return rules_of(schema().at(json::json_pointer(value["$ref"].get<std::string>().substr(1))));
   value.erase("description");
@@ -59,6 +59,7 @@ json range_schema(const char* type, const Range& range) {
 /// What the schema must say of a key that accepts this shape.
 json expected_schema(const Shape& shape) {
   const json number = range_schema("number", {});
+  const json positive = range_schema("number", {.least = 0, .excludes_least = true});
   const json nonzero = {{"allOf", {number, {{"not", {{"const", 0}}}}}}};
   const auto array = [](int size, const json& items) -> json {
     return {{"type", "array"}, {"minItems", size}, {"maxItems", size}, {"items", items}};
@@ -74,12 +75,22 @@ json expected_schema(const Shape& shape) {
     return {{"type", "string"}};
   case Shape::Kind::file:
     return {{"type", "string"}, {"minLength", 1}};
+  case Shape::Kind::files: {
+    const json file = {{"type", "string"}, {"minLength", 1}};
+    json ways = {file};
+    for (const int count : shape.counts) ways.push_back(array(count, file));
+    return {{"anyOf", ways}};
+  }
   case Shape::Kind::vector:
     return array(shape.components, number);
   case Shape::Kind::tile:
     return {{"anyOf", {nonzero, array(2, nonzero)}}};
+  case Shape::Kind::size:
+    return {{"anyOf", {positive, array(3, positive)}}};
   case Shape::Kind::object:
     return {{"$ref", "#/definitions/" + std::string(shape.object)}};
+  case Shape::Kind::objects:
+    return {{"type", "array"}, {"items", {{"$ref", "#/definitions/" + std::string(shape.object)}}}};
   case Shape::Kind::layers:
     return {{"$ref", "#/definitions/layers"}};
   case Shape::Kind::materials:
@@ -167,8 +178,8 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     plain["layers"].push_back(layer);
     full["layers"].push_back(full_layer);
   }
-  // 7 of a mask, 11 of each map layer, 4 of the camera, 3 of the lights.
-  EXPECT_EQ(written, 36);
+  // 7 of a mask, 11 of each map layer, 17 of a decal, 4 of the camera, 3 of the lights.
+  EXPECT_EQ(written, 53);
   EXPECT_EQ(text_of(parse_stack(full.dump(), "full")), text_of(parse_stack(plain.dump(), "plain")));
 }
 
@@ -182,7 +193,7 @@ TEST(StackDocumentation, examples_parse) {
     EXPECT_NO_THROW(static_cast<void>(parse_stack(example, "stack-format.md"))) << example;
     ++examples;
   }
-  EXPECT_EQ(examples, 3);
+  EXPECT_EQ(examples, 4);
 }
 
 TEST(StackDocumentation, names_every_key_and_word) {
