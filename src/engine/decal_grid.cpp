@@ -96,4 +96,14 @@ std::span<const std::uint32_t> DecalGrid::search(std::span<const Bounds> where) 
   return found;
 }
 
+std::size_t DecalGrid::most_looks() const {
+  std::size_t sum = 0;
+  for (const auto& [exponent, level] : levels_) {
+    std::size_t fullest = 0;
+    for (const auto& [cell, boxes] : level.cells) fullest = std::max(fullest, boxes.size());
+    sum += fullest;
+  }
+  return sum;
+}
+
 } // namespace surfgrad::engine

@@ -36,6 +36,9 @@ class DecalGrid {
   /// where  finite; of small extent: many cells wide, it costs a look at every box of that size
   [[nodiscard]] std::span<const std::uint32_t> search(std::span<const Bounds> where) const;
 
+  /// Boxes that a search within one cell looks at, at most: what it costs beside those it finds.
+  [[nodiscard]] std::size_t most_looks() const;
+
  private:
   using Cell = std::array<double, 3>; ///< whole numbers, exact however far away
   struct CellHash {
