@@ -118,6 +118,7 @@ TEST_F(DecalBlends, FollowTheFormulaOfTheirWeights) {
       // Facing the decal: towards the horizon rounding grows beyond any bound.
       f.normal = normalize_or_zero(axes.outward + 0.6 * random.unit_vector());
       const Vector n = f.normal;
+      for (auto& uv : f.uvs) uv.tangent = normalize_or_zero(uv.tangent - dot(uv.tangent, n) * n);
       const double w = 0.75 * 0.5;
       const Vector before = composed(below, f).surfgrad;
       const Vector volume = slope.x * axes.s + slope.y * axes.t;
