@@ -203,6 +203,37 @@ TEST_F(DecalLists, ComeOutTheSameByWayOfTheGridBitForBit) {
   EXPECT_GT(covered, tried / 10);
 }
 
+TEST_F(DecalLists, ComeOutTheSameWhereTheirBordersPassTheEye) {
+  // Positions next to nothing, decals not: what their own rounding lets in must be found.
+  long covered = 0;
+  for (const auto& word : stack::words_of<stack::DecalShape>) {
+    const bool round = word.value == stack::DecalShape::sphere || word.value == stack::DecalShape::capsule;
+    stack::DecalLayer layer = test::decal_layer(round ? "cube" : "a", word.value);
+    layer.falloff = 0;
+    for (int k = 0; k < 500; ++k) {
+      stack::DecalInstance& decal = layer.instances[0];
+      decal.position = random.vector3();
+      decal.size = random.vector3(0.1, 1);
+      decal.radius = random.uniform(0.1, 1);
+      const Decals decals = compiled(layer);
+      const Bounds bounds = bounds_of(decals.decals[0], word.value);
+      const auto place_of = [&](double low, double high) {
+        const double at[] = {low, 0.5 * (low + high), high};
+        return at[random.bits() % 3];
+      };
+      const vec3<double> border{place_of(bounds.low.x, bounds.high.x), place_of(bounds.low.y, bounds.high.y),
+                                place_of(bounds.low.z, bounds.high.z)};
+      // Within the bounds' own room for rounding, or just beyond.
+      const vec3<double> eye = border + 2e-6 * random.vector3();
+      const vec3<float> p{static_cast<float>(1e-12 * random.uniform()), 0, 0};
+      covered +=
+          expect_same<float>(decals, place({{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}, eye),
+                             fragment_at(p, random.unit_vector()));
+    }
+  }
+  EXPECT_GT(covered, 100);
+}
+
 TEST_F(DecalLists, CostWhatCoversTheFragment) {
   stack::DecalLayer layer = test::decal_layer("a");
   layer.instances.clear();
