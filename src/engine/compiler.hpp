@@ -2,6 +2,7 @@
 
 #include "engine/bump_map.hpp"
 #include "engine/layers/height_map.hpp"
+#include "engine/layers/decal.hpp"
 #include "engine/layers/influence.hpp"
 #include "engine/layers/noise.hpp"
 #include "engine/layers/normal_map.hpp"
@@ -34,6 +35,9 @@ class Compiler {
     return bump_map(use, use.content, file);
   }
   [[nodiscard]] Influence influence(const stack::LayerCommon& common) const;
+  [[nodiscard]] std::optional<Texture> mask(const stack::LayerWeight& common) const;
+  /// Cosine and sine of an angle in degrees; exact for whole quarter turns.
+  [[nodiscard]] static vec2<double> rotation(double degrees);
 
  private:
   const std::vector<raster::UvSlot>& slots_;
@@ -48,6 +52,7 @@ class Compiler {
 [[nodiscard]] VolumeNoise compiled(const stack::NoiseLayer& layer, const Compiler& compiler);
 [[nodiscard]] Planar compiled(const stack::PlanarLayer& layer, const Compiler& compiler);
 [[nodiscard]] Triplanar compiled(const stack::TriplanarLayer& layer, const Compiler& compiler);
+[[nodiscard]] Decals compiled(const stack::DecalLayer& layer, const Compiler& compiler);
 [[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
 
 } // namespace surfgrad::engine

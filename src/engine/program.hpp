@@ -2,6 +2,7 @@
 
 #include "engine/layers/height_map.hpp"
 #include "engine/layers/noise.hpp"
+#include "engine/layers/decal.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
 #include "engine/layers/planar.hpp"
@@ -18,8 +19,7 @@ namespace surfgrad::engine {
 
 /// The layers of one material, ready to run: maps loaded, numbers folded.
 struct Program {
-  std::vector<std::variant<NormalMap, HeightMap, ObjectNormalMap, VolumeNoise, Planar, Triplanar, Resolve>>
-      layers;
+  std::vector<std::variant<NormalMap, HeightMap, ObjectNormalMap, VolumeNoise, Planar, Triplanar, Decals, Resolve>> layers;
 };
 
 /// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the

@@ -156,11 +156,11 @@ FileName read_file(const Value& value, const Shape& shape) {
 
 std::vector<FileName> read_files(const Value& value, const Shape& shape) {
   const Shape one{.kind = Shape::Kind::file};
+  if (std::holds_alternative<std::string>(value.node.value)) return {read_file(value, one)};
   const auto* elements = std::get_if<std::vector<Node>>(&value.node.value);
-  if (elements == nullptr && !std::holds_alternative<std::string>(value.node.value))
+  if (elements == nullptr || std::find(shape.counts.begin(), shape.counts.end(),
+                                       static_cast<int>(elements->size())) == shape.counts.end())
     value.reject(expectation(shape));
-  if (elements == nullptr) return {read_file(value, one)};
-  if (elements->size() != static_cast<std::size_t>(shape.components)) value.reject(expectation(shape));
   std::vector<FileName> files;
   for (std::size_t i = 0; i < elements->size(); ++i) files.push_back(read_file(value.element(i), one));
   return files;

@@ -58,7 +58,9 @@ void read_object(const Value& value, T& target);
 template <class T>
 class Fields {
  public:
-  Fields&& number(std::string_view key, double T::*member, Range range = {}) && {
+  /// Member: double, or an optional one.
+  template <class Member>
+  Fields&& number(std::string_view key, Member T::*member, Range range = {}) && {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::number, .range = range},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_number(value, shape); });
@@ -85,10 +87,10 @@ class Fields {
         key, {.kind = Shape::Kind::file},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_file(value, shape); });
   }
-  /// One file, or `count` of them.
-  Fields&& files(std::string_view key, std::vector<FileName> T::*member, int count) && {
+  /// One file, or as many as one of `counts`.
+  Fields&& files(std::string_view key, std::vector<FileName> T::*member, std::vector<int> counts) && {
     return std::move(*this).add(
-        key, {.kind = Shape::Kind::files, .components = count},
+        key, {.kind = Shape::Kind::files, .counts = std::move(counts)},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_files(value, shape); });
   }
   Fields&& vector(std::string_view key, vec2<double> T::*member) && {
@@ -147,6 +149,13 @@ class Fields {
   template <class Part>
   Fields&& part(Part T::*member) && {
     return std::move(*this).template include<Part>([=](T& t) -> Part& { return t.*member; });
+  }
+  /// The keys of whatever `access` gives, in the same object.
+  ///
+  /// access  Part&(T&)
+  template <class Part, class Access>
+  Fields&& part(Access access) && {
+    return std::move(*this).template include<Part>(access);
   }
   /// Runs after all keys, with the object's own value: for lines, and for rules over several keys.
   Fields&& finally(std::function<void(T&, const Value&)> step) && {

@@ -33,13 +33,17 @@ std::string expectation(const Shape& shape) {
   case Shape::Kind::file:
     return "a file name";
   case Shape::Kind::files:
-    return fmt::format("a file name or an array of {} file names", shape.components);
+    return fmt::format("a file name or an array of {} file names", fmt::join(shape.counts, " or "));
   case Shape::Kind::vector:
     return fmt::format("an array of {} numbers", shape.components);
   case Shape::Kind::tile:
     return "a number or an array of 2 numbers, none of them zero";
+  case Shape::Kind::size:
+    return "a number or an array of 3 numbers, all of them greater than 0";
   case Shape::Kind::object:
     return "an object";
+  case Shape::Kind::objects:
+    return "an array of objects";
   case Shape::Kind::layers:
     return "an array of layers";
   case Shape::Kind::materials:

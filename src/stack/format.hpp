@@ -27,10 +27,12 @@ struct Shape {
     word,      ///< one of `words`
     text,      ///< any string
     file,      ///< a file name
-    files,     ///< one file name or an array of `components`
+    files,     ///< a file name, or an array of as many as one of `counts`
     vector,    ///< an array of `components` numbers
     tile,      ///< one number or an array of two, none of them zero
+    size,      ///< one number or an array of three, each greater than 0
     object,    ///< an object of the format named `object`
+    objects,   ///< an array of such objects
     layers,    ///< an array of layers
     materials, ///< an object whose every value is an array of layers
   };
@@ -38,6 +40,7 @@ struct Shape {
   Range range{};
   std::vector<std::string_view> words{};
   int components = 0;
+  std::vector<int> counts{};
   std::string_view object{};
 };
 

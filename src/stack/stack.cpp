@@ -98,10 +98,13 @@ const Fields<Stack>& Stack::fields() {
 }
 
 std::vector<ObjectFormat> document_format() {
-  std::vector<ObjectFormat> objects{
-      Stack::fields().format(Stack::format_name),           Mask::fields().format(Mask::format_name),
-      Convention::fields().format(Convention::format_name), Camera::fields().format(Camera::format_name),
-      Lights::fields().format(Lights::format_name),         Sun::fields().format(Sun::format_name)};
+  std::vector<ObjectFormat> objects{Stack::fields().format(Stack::format_name),
+                                    Mask::fields().format(Mask::format_name),
+                                    Convention::fields().format(Convention::format_name),
+                                    Camera::fields().format(Camera::format_name),
+                                    Lights::fields().format(Lights::format_name),
+                                    Sun::fields().format(Sun::format_name),
+                                    DecalInstance::fields().format(DecalInstance::format_name)};
   for (const Kind& kind : kinds()) objects.push_back(kind.format());
   return objects;
 }

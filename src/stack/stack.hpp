@@ -6,6 +6,7 @@
 #include "stack/layers/derivative_map.hpp"
 #include "stack/layers/height_map.hpp"
 #include "stack/layers/noise.hpp"
+#include "stack/layers/decal.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
 #include "stack/layers/planar.hpp"
@@ -20,8 +21,7 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer,
-                           NoiseLayer, PlanarLayer, TriplanarLayer, ResolveLayer>;
+using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer, NoiseLayer, PlanarLayer, TriplanarLayer, DecalLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

@@ -51,6 +51,13 @@ enum class NoiseBasis { perlin, simplex, worley };
 /// surface_gradient: the gradient's part along the surface; perlin1985: the whole gradient added to the
 /// normal, as Perlin did in 1985, to compare with.
 enum class NoiseMethod { surface_gradient, perlin1985 };
+enum class DecalShape { box, cone, sphere, capsule, wedge };
+/// How a decal joins the sum of its pass: as Blend, or replace: the decal's own direction becomes the
+/// normal, G = (1 - w) * G + w * g of that direction.
+enum class DecalBlend { add, mix, replace };
+/// What a slope in the image of a cone or wedge adds to the volume gradient: with the perspective term, or
+/// without it, as in a box.
+enum class ConeGradient { exact, scale_free };
 
 template <class E>
 struct Word {
@@ -144,5 +151,16 @@ inline constexpr auto words_of<TextureOrigin> = std::to_array<Word<TextureOrigin
 template <>
 inline constexpr auto words_of<TriplanarPlanes> = std::to_array<Word<TriplanarPlanes>>(
     {{"mikkelsen", TriplanarPlanes::mikkelsen}, {"golubev", TriplanarPlanes::golubev}});
+    words_of<DecalShape> = std::to_array<Word<DecalShape>>({{"box", DecalShape::box},
+                                                            {"cone", DecalShape::cone},
+                                                            {"sphere", DecalShape::sphere},
+                                                            {"capsule", DecalShape::capsule},
+                                                            {"wedge", DecalShape::wedge}});
+template <>
+inline constexpr auto words_of<DecalBlend> = std::to_array<Word<DecalBlend>>(
+    {{"add", DecalBlend::add}, {"mix", DecalBlend::mix}, {"replace", DecalBlend::replace}});
+template <>
+inline constexpr auto words_of<ConeGradient> = std::to_array<Word<ConeGradient>>(
+    {{"exact", ConeGradient::exact}, {"scale_free", ConeGradient::scale_free}});
 
 } // namespace surfgrad::stack

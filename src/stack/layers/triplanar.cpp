@@ -16,7 +16,7 @@ const Fields<TriplanarLayer>& TriplanarLayer::fields() {
   static const auto table =
       Fields<TriplanarLayer>()
           .type(type)
-          .files("map", &TriplanarLayer::files, 3)
+          .files("map", &TriplanarLayer::files, {3})
           .required()
           .number("sharpness", &TriplanarLayer::sharpness, {.least = 0, .excludes_least = true})
           .word("space", &TriplanarLayer::space)

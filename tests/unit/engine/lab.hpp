@@ -84,6 +84,13 @@ triplanar_layer(const std::vector<const char*>& maps,
   return layer;
 }
 
+inline stack::DecalLayer decal_layer(const char* map, stack::DecalShape shape = stack::DecalShape::box) {
+  stack::DecalLayer layer;
+  layer.files = {{.path = map}};
+  layer.shape = shape;
+  return layer;
+}
+
 inline stack::Mask mask_of(const char* map, stack::MaskChannel channel = stack::MaskChannel::r) {
   stack::Mask mask;
   mask.file.path = map;
@@ -183,6 +190,18 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
   triplanar.map.rotate_deg = -50;
   stack::TriplanarLayer of_normals = triplanar_layer({"c"}, stack::TriplanarContent::object_normal);
   of_normals.common.opacity = 0.1;
+  // Most fragments lie within.
+  stack::DecalLayer box = decal_layer("a");
+  box.instances[0].size = {3, 4, 2.5};
+  box.instances[0].direction = {1, -2, 0.5};
+  box.common.mask = mask_of("mask");
+  lab.add("cube", surfgrad::test::random_image(random, 24, 4, 3));
+  stack::DecalLayer sphere = decal_layer("cube", stack::DecalShape::sphere);
+  sphere.space = stack::Space::object;
+  sphere.instances[0].radius = 2;
+  sphere.instances.push_back(sphere.instances[0]);
+  sphere.instances[1].position = {1, 0.5, 0};
+  sphere.common.scale = 0.1;
   return {normal_layer("a"),
           b,
           c,
@@ -194,7 +213,9 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
           e,
           planar,
           triplanar,
-          of_normals};
+          of_normals,
+          box,
+          sphere};
 }
 
 } // namespace surfgrad::engine::test

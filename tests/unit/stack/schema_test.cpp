@@ -42,7 +42,7 @@ json rules_of(json value) {
   if (!value.is_object()) return value;
   static const std::set<std::string> kept = {"#/definitions/mask",       "#/definitions/camera",
                                              "#/definitions/convention", "#/definitions/lights",
-                                             "#/definitions/sun",        "#/definitions/layers"};
+                                             "#/definitions/sun",        "#/definitions/layers",     "#/definitions/decal_instance"};
   if (value.contains("$ref") && kept.count(value["$ref"]) == 0)
     return rules_of(schema().at(json::json_pointer(value["$ref"].get<std::string>().substr(1))));
   value.erase("description");
@@ -60,6 +60,7 @@ json range_schema(const char* type, const Range& range) {
 /// What the schema must say of a key that accepts this shape.
 json expected_schema(const Shape& shape) {
   const json number = range_schema("number", {});
+  const json positive = range_schema("number", {.least = 0, .excludes_least = true});
   const json nonzero = {{"allOf", {number, {{"not", {{"const", 0}}}}}}};
   const auto array = [](int size, const json& items) -> json {
     return {{"type", "array"}, {"minItems", size}, {"maxItems", size}, {"items", items}};
@@ -76,15 +77,21 @@ json expected_schema(const Shape& shape) {
   case Shape::Kind::file:
     return {{"type", "string"}, {"minLength", 1}};
   case Shape::Kind::files: {
-    const json file = expected_schema({.kind = Shape::Kind::file});
-    return {{"anyOf", {file, array(shape.components, file)}}};
+    const json file = {{"type", "string"}, {"minLength", 1}};
+    json ways = {file};
+    for (const int count : shape.counts) ways.push_back(array(count, file));
+    return {{"anyOf", ways}};
   }
   case Shape::Kind::vector:
     return array(shape.components, number);
   case Shape::Kind::tile:
     return {{"anyOf", {nonzero, array(2, nonzero)}}};
+  case Shape::Kind::size:
+    return {{"anyOf", {positive, array(3, positive)}}};
   case Shape::Kind::object:
     return {{"$ref", "#/definitions/" + std::string(shape.object)}};
+  case Shape::Kind::objects:
+    return {{"type", "array"}, {"items", {{"$ref", "#/definitions/" + std::string(shape.object)}}}};
   case Shape::Kind::layers:
     return {{"$ref", "#/definitions/layers"}};
   case Shape::Kind::materials:
@@ -188,9 +195,9 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     }
     json layer = {{"type", object.is_layer ? std::string(object.name) : "normal_map"}};
     for (const KeyFormat& key : object.keys)
-      if (key.required && key.shape.kind == Shape::Kind::file) layer[std::string(key.key)] = "n.png";
+      if (key.required && (key.shape.kind == Shape::Kind::file || key.shape.kind == Shape::Kind::files))
+        layer[std::string(key.key)] = "n.png";
     if (object.name == "planar") layer["axis"] = "z";
-    if (object.name == "triplanar") layer["map"] = "n.png";
     json full_layer = layer;
     if (object.name == "mask") {
       layer["mask"] = {{"map", "k.png"}};

@@ -17,10 +17,10 @@ struct StackText {
   void line(fmt::format_string<Values...> form, Values&&... values) {
     text += fmt::format(form, std::forward<Values>(values)...) + "\n";
   }
-  void texture(const Texture& t) {
-    line("{} uv {} tile {} {} rotate {} offset {} {} wrap {} filter {}", t.file.path.string(), t.uv, t.tile.x,
-         t.tile.y, t.rotate_deg, t.offset.x, t.offset.y, static_cast<int>(t.wrap),
-         static_cast<int>(t.filter));
+  static std::string tiled(const Tiled& t) {
+    return fmt::format("tile {} {} rotate {} offset {} {} wrap {} filter {}", t.tile.x, t.tile.y,
+                       t.rotate_deg, t.offset.x, t.offset.y, static_cast<int>(t.wrap),
+                       static_cast<int>(t.filter));
   }
   void codes(const BumpCodes& b) {
     line("tile {} {} rotate {} offset {} {} wrap {} filter {}", b.tile.x, b.tile.y, b.rotate_deg, b.offset.x,
@@ -29,12 +29,16 @@ struct StackText {
          static_cast<int>(b.green), b.derivative.range, static_cast<int>(b.derivative.neutral),
          static_cast<int>(b.height_channel), b.height);
   }
+  void texture(const Texture& t) { line("{} uv {} {}", t.file.path.string(), t.uv, tiled(t)); }
   void map(const Map& m) {
     texture(m);
     line("green {}", static_cast<int>(m.green));
   }
   void common(const LayerCommon& c) {
     line("scale {} opacity {} blend {}", c.scale, c.opacity, static_cast<int>(c.blend));
+    mask(c);
+  }
+  void mask(const LayerWeight& c) {
     if (!c.mask) return;
     texture(*c.mask);
     line("channel {}", static_cast<int>(c.mask->channel));
@@ -84,6 +88,27 @@ struct StackText {
          static_cast<int>(l.convention.origin), static_cast<int>(l.convention.planes));
     common(l.common);
     codes(l.map);
+  }
+  void operator()(const DecalLayer& l) {
+    line("decal shape {} space {} falloff {} gradient {}", static_cast<int>(l.shape),
+         static_cast<int>(l.space), l.falloff, static_cast<int>(l.gradient));
+    for (const FileName& file : l.files) line("{}", file.path.string());
+    const BumpMap& m = l.map;
+    line("{} content {} channels {} green {}", tiled(m), static_cast<int>(m.content),
+         static_cast<int>(m.channels), static_cast<int>(m.green));
+    line("range {} neutral {} channel {} height {}", m.derivative.range,
+         static_cast<int>(m.derivative.neutral), static_cast<int>(m.height_channel), m.height);
+    line("scale {} opacity {} blend {}", l.common.scale, l.common.opacity, static_cast<int>(l.blend));
+    mask(l.common);
+    for (const DecalInstance& i : l.instances) {
+      line("at {} {} {} direction {} {} {} roll {}", i.position.x, i.position.y, i.position.z, i.direction.x,
+           i.direction.y, i.direction.z, i.roll_deg);
+      if (i.transform) line("transform {}", fmt::join(*i.transform, " "));
+      line("size {} {} {} angle {} depth {} radius {} length {}", i.size.x, i.size.y, i.size.z, i.angle_deg,
+           i.depth, i.radius, i.length);
+      line("scale {} opacity {} blend {}", i.scale.value_or(-99), i.opacity.value_or(-99),
+           i.blend ? static_cast<int>(*i.blend) : -99);
+    }
   }
   void operator()(const ResolveLayer&) { line("resolve"); }
   void layers(const std::vector<Layer>& list) {
