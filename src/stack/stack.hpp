@@ -7,6 +7,7 @@
 #include "stack/layers/height_map.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
+#include "stack/layers/parallax.hpp"
 #include "stack/layers/resolve.hpp"
 #include "stack/view.hpp"
 
@@ -17,8 +18,8 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer =
-    std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer, ResolveLayer>;
+using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer,
+                           ParallaxLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {
