@@ -5,6 +5,7 @@
 #include "engine/layers/influence.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
+#include "engine/layers/parallax.hpp"
 #include "engine/layers/resolve.hpp"
 #include "engine/map_library.hpp"
 #include "raster/surface.hpp"
@@ -38,6 +39,7 @@ class Compiler {
 [[nodiscard]] NormalMap compiled(const stack::DerivativeMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] HeightMap compiled(const stack::HeightMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] ObjectNormalMap compiled(const stack::ObjectNormalMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] Parallax compiled(const stack::ParallaxLayer& layer, const Compiler& compiler);
 [[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
 
 } // namespace surfgrad::engine

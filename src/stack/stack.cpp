@@ -16,21 +16,23 @@ struct Kind {
   ObjectFormat (*format)();
 };
 
+template <class K>
+constexpr bool opens_pass() {
+  if constexpr (requires { K::opens_pass; }) return true;
+  return false;
+}
+
 template <class... Kinds>
 std::vector<Kind> kinds_of(const std::variant<Kinds...>*) {
-  return {Kind{.type = Kinds::type, .opens_pass = requires {Kinds::opens_pass;
-}
-,
-    .read =
-        [](const Value& value) {
-          Kinds layer;
-          read_object(value, layer);
-          return Layer(std::move(layer));
-        },
-    .format = [] { return Kinds::fields().format(Kinds::type, true); }
-} // namespace
-...
-}; // namespace surfgrad::stack
+  return {Kind{.type = Kinds::type,
+               .opens_pass = opens_pass<Kinds>(),
+               .read =
+                   [](const Value& value) {
+                     Kinds layer;
+                     read_object(value, layer);
+                     return Layer(std::move(layer));
+                   },
+               .format = [] { return Kinds::fields().format(Kinds::type, true); }}...};
 }
 
 const std::vector<Kind>& kinds() {

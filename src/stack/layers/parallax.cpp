@@ -6,10 +6,14 @@ namespace surfgrad::stack {
 namespace {
 
 /// A key that says nothing about this method is a slip.
-void check_method(const ParallaxLayer& layer, const Value& value) {
+void check(const ParallaxLayer& layer, const Value& value) {
   const Member* limit = value.find("limit_offset");
   if (limit != nullptr && layer.method != ParallaxMethod::offset)
     value.member(*limit).fail("does not apply to this method", R"(leave it out, or give "method": "offset")");
+  if (layer.map.filter == Filter::nearest)
+    value.member(*value.find("filter"))
+        .fail("does not apply to heights that are seen from the side",
+              "expected one of: bilinear, trilinear");
 }
 
 } // namespace
@@ -30,7 +34,7 @@ const Fields<ParallaxLayer>& ParallaxLayer::fields() {
           .word("facing", &ParallaxLayer::facing)
           .truth("self_shadow", &ParallaxLayer::self_shadow)
           .part(&ParallaxLayer::common)
-          .finally(check_method);
+          .finally(check);
   return table;
 }
 

@@ -65,6 +65,13 @@ inline stack::ObjectNormalMapLayer object_layer(const char* map, stack::Space sp
   return layer;
 }
 
+inline stack::ParallaxLayer parallax_layer(const char* map, double height) {
+  stack::ParallaxLayer layer;
+  layer.map.file.path = map;
+  layer.height = height;
+  return layer;
+}
+
 inline stack::Mask mask_of(const char* map, stack::MaskChannel channel = stack::MaskChannel::r) {
   stack::Mask mask;
   mask.file.path = map;
