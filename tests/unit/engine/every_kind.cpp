@@ -179,8 +179,13 @@ std::vector<KindCase> every_kind() {
       layer.map.tile = {2, -1};
       layer.map.rotate_deg = 20;
       layer.level = 0.3;
-      // What comes after it reads every part of the point that it moved.
-      return {layer, normal_layer("normals", 0, stack::Basis::derived), object_layer("directions")};
+      // What comes after it reads every part of the point that it moved. (No tangent frame: the relief
+      // shears texture coordinates, see Body.)
+      stack::HeightMapLayer heights;
+      heights.map.file.path = "heights";
+      heights.map.tile = {3, 3};
+      heights.height = 0.02 * scale;
+      return {layer, heights, object_layer("directions")};
     };
   };
   return {
