@@ -185,6 +185,7 @@ std::vector<KindCase> every_kind() {
       heights.map.file.path = "heights";
       heights.map.tile = {3, 3};
       heights.height = 0.02 * scale;
+      heights.taps = stack::Taps::bicubic;
       return {layer, heights, object_layer("directions")};
     };
   };
