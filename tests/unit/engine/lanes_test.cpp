@@ -86,8 +86,8 @@ TEST(ComposeLanes, EqualOneLaneInEveryBackFaceMode) {
   test::Lab lab;
   std::vector<stack::Layer> layers = test::one_of_each(lab, random);
   layers.insert(layers.begin() + 2, stack::ResolveLayer{});
-  lab.add("heights", surfgrad::test::random_image(random, 16, 8, 1));
-  stack::ParallaxLayer parallax = test::parallax_layer("heights", 0.1);
+  lab.add("relief", surfgrad::test::random_image(random, 16, 8, 1));
+  stack::ParallaxLayer parallax = test::parallax_layer("relief", 0.1);
   parallax.self_shadow = true;
   layers.insert(layers.begin(), parallax);
   const Program program = lab.compile(layers);

@@ -37,6 +37,19 @@ struct StackText {
     common(l.common);
     map(l.map);
   }
+  void operator()(const DerivativeMapLayer& l) {
+    line("derivative_map basis {} range {} neutral {}", static_cast<int>(l.basis), l.code.range,
+         static_cast<int>(l.code.neutral));
+    common(l.common);
+    map(l.map);
+  }
+  void operator()(const HeightMapLayer& l) {
+    line("height_map channel {} mode {} height {} units {} taps {} basis {}", static_cast<int>(l.channel),
+         static_cast<int>(l.mode), l.height, static_cast<int>(l.units), static_cast<int>(l.taps),
+         l.basis ? static_cast<int>(*l.basis) : -1);
+    common(l.common);
+    texture(l.map);
+  }
   void operator()(const ObjectNormalMapLayer& l) {
     line("object_normal_map space {}", static_cast<int>(l.space));
     common(l.common);
