@@ -8,6 +8,7 @@
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
 #include "engine/layers/planar.hpp"
+#include "engine/layers/parallax.hpp"
 #include "engine/layers/resolve.hpp"
 #include "engine/layers/triplanar.hpp"
 #include "engine/map_library.hpp"
@@ -53,6 +54,7 @@ class Compiler {
 [[nodiscard]] Planar compiled(const stack::PlanarLayer& layer, const Compiler& compiler);
 [[nodiscard]] Triplanar compiled(const stack::TriplanarLayer& layer, const Compiler& compiler);
 [[nodiscard]] Decals compiled(const stack::DecalLayer& layer, const Compiler& compiler);
+[[nodiscard]] Parallax compiled(const stack::ParallaxLayer& layer, const Compiler& compiler);
 [[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
 
 } // namespace surfgrad::engine

@@ -128,4 +128,13 @@ std::shared_ptr<const image::Map> MapLibrary::weights(const stack::FileName& fil
   });
 }
 
+std::shared_ptr<const image::TwoSidedField> MapLibrary::relief(const stack::FileName& file,
+                                                               stack::MaskChannel channel) {
+  auto& relief = reliefs_[number_of(channel) + " " + file.path.string()];
+  if (!relief)
+    relief = std::make_shared<const image::TwoSidedField>(
+        image::make_two_sided_field(image::make_channel_map(find_(file.path), static_cast<int>(channel))));
+  return relief;
+}
+
 } // namespace surfgrad::engine

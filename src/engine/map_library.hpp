@@ -1,6 +1,7 @@
 #pragma once
 
 #include "image/cube_map.hpp"
+#include "image/height_field.hpp"
 #include "image/image.hpp"
 #include "image/map.hpp"
 #include "image/sampler.hpp"
@@ -44,6 +45,8 @@ class MapLibrary {
   std::shared_ptr<const image::Map> directions(const stack::FileName& file, stack::Green green);
   /// One channel as weights.
   std::shared_ptr<const image::Map> weights(const stack::FileName& file, stack::MaskChannel channel);
+  /// One channel as heights within [0, 1], made ready for rays.
+  std::shared_ptr<const image::TwoSidedField> relief(const stack::FileName& file, stack::MaskChannel channel);
 
   /// A normal map with texels that point into the surface (z <= 0), which no height field has.
   struct InwardTexels {
@@ -67,6 +70,7 @@ class MapLibrary {
   std::filesystem::path document_;
   std::map<std::string, std::shared_ptr<const image::Map>> maps_;
   std::map<std::vector<std::filesystem::path>, std::shared_ptr<const image::CubeMap>> cubes_;
+  std::map<std::string, std::shared_ptr<const image::TwoSidedField>> reliefs_;
   std::vector<InwardTexels> inward_;
 };
 

@@ -129,6 +129,12 @@ int read_integer(const Value& value, const Shape& shape) {
   return static_cast<int>(number);
 }
 
+bool read_truth(const Value& value, const Shape& shape) {
+  const auto* truth = std::get_if<bool>(&value.node.value);
+  if (truth == nullptr) value.reject(expectation(shape));
+  return *truth;
+}
+
 std::size_t read_word(const Value& value, const Shape& shape) {
   const std::string* text = std::get_if<std::string>(&value.node.value);
   if (text == nullptr) value.reject(expectation(shape));

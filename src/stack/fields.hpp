@@ -35,6 +35,7 @@ struct Value {
 // Readers of one value; each throws InputError at it unless it fits the shape.
 [[nodiscard]] double read_number(const Value& value, const Shape& shape);
 [[nodiscard]] int read_integer(const Value& value, const Shape& shape);
+[[nodiscard]] bool read_truth(const Value& value, const Shape& shape);
 [[nodiscard]] std::size_t read_word(const Value& value, const Shape& shape); ///< index into shape.words
 [[nodiscard]] std::string read_text(const Value& value, const Shape& shape);
 [[nodiscard]] FileName read_file(const Value& value, const Shape& shape);
@@ -69,6 +70,11 @@ class Fields {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::integer, .range = range},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_integer(value, shape); });
+  }
+  Fields&& truth(std::string_view key, bool T::*member) && {
+    return std::move(*this).add(
+        key, {.kind = Shape::Kind::truth},
+        [=](T& t, const Value& value, const Shape& shape) { t.*member = read_truth(value, shape); });
   }
   /// Member: an enumeration with words, or an optional one.
   template <class Member>

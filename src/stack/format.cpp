@@ -26,6 +26,8 @@ std::string expectation(const Shape& shape) {
     return "a number" + limits(shape.range);
   case Shape::Kind::integer:
     return "a whole number" + limits(shape.range);
+  case Shape::Kind::truth:
+    return "true or false";
   case Shape::Kind::word:
     return fmt::format("{}{}", shape.words.size() > 1 ? "one of: " : "", fmt::join(shape.words, ", "));
   case Shape::Kind::text:

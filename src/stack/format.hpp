@@ -24,6 +24,7 @@ struct Shape {
   enum class Kind {
     number,    ///< one number within `range`
     integer,   ///< the same, whole
+    truth,     ///< true or false
     word,      ///< one of `words`
     text,      ///< any string
     file,      ///< a file name

@@ -10,6 +10,7 @@
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
 #include "stack/layers/planar.hpp"
+#include "stack/layers/parallax.hpp"
 #include "stack/layers/resolve.hpp"
 #include "stack/layers/triplanar.hpp"
 #include "stack/view.hpp"
@@ -21,7 +22,7 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer, NoiseLayer, PlanarLayer, TriplanarLayer, DecalLayer, ResolveLayer>;
+using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer, NoiseLayer, PlanarLayer, TriplanarLayer, DecalLayer, ParallaxLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

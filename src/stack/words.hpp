@@ -41,6 +41,16 @@ enum class Units { scene, object };
 /// blocks of 2x2 pixels; from three; or from three where the map is minified, and where it is magnified
 /// from a smooth surface through 4x4 texels.
 enum class Taps { one, three, bicubic };
+/// How the point is found that parallax shows: by the height under the fragment, or where the view first
+/// meets the heights.
+enum class ParallaxMethod { offset, occlusion };
+/// What mip levels are chosen by after a parallax: the footprint on the mesh, or that on the relief.
+enum class ParallaxLod { base, displaced };
+/// What the layers after a parallax perturb: the normal of its heights, or still the smooth one.
+enum class ParallaxNormal { height, none };
+/// What plane the footprint is measured on where the normal of a relief faces away: its own all the
+/// same, or the one reflected towards the viewer.
+enum class Facing { keep, reflect };
 /// What a surface seen from behind shows. same: the front's normal; mirror: the interpolated normal
 /// negated; flip: that, and the bumps negated too; cull: nothing.
 enum class BackFaces { same, mirror, flip, cull };
@@ -114,6 +124,18 @@ inline constexpr auto words_of<Units> = std::to_array<Word<Units>>({{"scene", Un
 template <>
 inline constexpr auto words_of<Taps> =
     std::to_array<Word<Taps>>({{"one", Taps::one}, {"three", Taps::three}, {"bicubic", Taps::bicubic}});
+template <>
+inline constexpr auto words_of<ParallaxMethod> = std::to_array<Word<ParallaxMethod>>(
+    {{"offset", ParallaxMethod::offset}, {"occlusion", ParallaxMethod::occlusion}});
+template <>
+inline constexpr auto words_of<ParallaxLod> =
+    std::to_array<Word<ParallaxLod>>({{"base", ParallaxLod::base}, {"displaced", ParallaxLod::displaced}});
+template <>
+inline constexpr auto words_of<ParallaxNormal> =
+    std::to_array<Word<ParallaxNormal>>({{"height", ParallaxNormal::height}, {"none", ParallaxNormal::none}});
+template <>
+inline constexpr auto words_of<Facing> = std::to_array<Word<Facing>>({{"keep", Facing::keep},
+                                                                      {"reflect", Facing::reflect}});
 template <>
 inline constexpr auto words_of<BackFaces> = std::to_array<Word<BackFaces>>({{"same", BackFaces::same},
                                                                             {"mirror", BackFaces::mirror},

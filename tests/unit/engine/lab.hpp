@@ -91,6 +91,13 @@ inline stack::DecalLayer decal_layer(const char* map, stack::DecalShape shape = 
   return layer;
 }
 
+inline stack::ParallaxLayer parallax_layer(const char* map, double height) {
+  stack::ParallaxLayer layer;
+  layer.map.file.path = map;
+  layer.height = height;
+  return layer;
+}
+
 inline stack::Mask mask_of(const char* map, stack::MaskChannel channel = stack::MaskChannel::r) {
   stack::Mask mask;
   mask.file.path = map;

@@ -100,6 +100,7 @@ void expect_lanes_equal_one(const Program& program, test::Random& random, BackFa
       expect_same_bits(got.normal.y.lane[i], expected.normal.y);
       expect_same_bits(got.normal.z.lane[i], expected.normal.z);
       expect_same_bits(got.surfgrad.x.lane[i], expected.surfgrad.x);
+      expect_same_bits(got.sunlight.lane[i], expected.sunlight);
       EXPECT_EQ(got.degenerate.lane[i], expected.degenerate);
     }
   }
@@ -112,8 +113,13 @@ TEST(ComposeLanes, EqualOneLaneInEveryBackFaceMode) {
   test::Lab lab;
   std::vector<stack::Layer> layers = test::one_of_each(lab, random);
   layers.insert(layers.begin() + 2, stack::ResolveLayer{});
+  lab.add("relief", surfgrad::test::random_image(random, 16, 8, 1));
+  stack::ParallaxLayer parallax = test::parallax_layer("relief", 0.1);
+  parallax.self_shadow = true;
+  layers.insert(layers.begin(), parallax);
   const Program program = lab.compile(layers);
-  const Placement placement = test::placed({{0, -2, 0}, {1, 0, 0}, {0, 0, -1}});
+  Placement placement = test::placed({{0, -2, 0}, {1, 0, 0}, {0, 0, -1}});
+  placement.to_sun = {0.6, 0, 0.8};
   for (const BackFaces mode : {BackFaces::same, BackFaces::mirror, BackFaces::flip})
     expect_lanes_equal_one(program, random, mode, placement);
 }
