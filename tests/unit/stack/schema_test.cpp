@@ -167,8 +167,8 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     plain["layers"].push_back(layer);
     full["layers"].push_back(full_layer);
   }
-  // 7 of a mask, 11 of each map layer, 4 of the camera, 3 of the lights.
-  EXPECT_EQ(written, 36);
+  // 8 of a mask, 12 of each map layer, 4 of the camera, 3 of the lights.
+  EXPECT_EQ(written, 39);
   EXPECT_EQ(text_of(parse_stack(full.dump(), "full")), text_of(parse_stack(plain.dump(), "plain")));
 }
 

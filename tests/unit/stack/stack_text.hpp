@@ -21,6 +21,10 @@ struct StackText {
     line("{} uv {} tile {} {} rotate {} offset {} {} wrap {} filter {}", t.file.path.string(), t.uv, t.tile.x,
          t.tile.y, t.rotate_deg, t.offset.x, t.offset.y, static_cast<int>(t.wrap),
          static_cast<int>(t.filter));
+    tiling(t);
+  }
+  void tiling(const Tiled& t) {
+    if (t.tiling == Tiling::hex) line("hex turn {}", t.hex_turn_deg);
   }
   void map(const Map& m) {
     texture(m);
