@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -66,7 +68,8 @@ mat4<double> transform_of(const Document& document, const tinygltf::Node& node, 
 /// Puts a model together: walks the nodes and reads each mesh when a node first shows it.
 class Reader {
  public:
-  explicit Reader(const Document& document) : document_(&document), meshes_(document.model.meshes.size()) {}
+  Reader(const Document& document, std::span<const double> morph_weights)
+      : document_(&document), morph_weights_(morph_weights) {}
 
   Model read() {
     model_.materials = gltf::read_materials(*document_);
@@ -89,6 +92,12 @@ class Reader {
     }
     if (model_.objects.empty())
       document_->fail("", "no node of the scene shows a mesh of triangles", "expected at least one");
+    if (morph_weights_.size() > most_targets_)
+      document_->fail("",
+                      fmt::format("has {} morph targets but {} weights are given",
+                                  most_targets_ == 0 ? "no" : fmt::format("at most {}", most_targets_),
+                                  morph_weights_.size()),
+                      fmt::format("expected at most {}", most_targets_));
     return std::move(model_);
   }
 
@@ -129,17 +138,50 @@ class Reader {
   void add_objects(const tinygltf::Node& node, const std::string& place,
                    const mat4<double>& world_from_node) {
     const auto index = static_cast<std::size_t>(node.mesh);
-    if (!meshes_[index]) meshes_[index] = read_mesh(index);
-    if (meshes_[index]->size() > most_objects - model_.objects.size())
+    std::vector<double> weights = weights_of(node, place);
+    auto shown = meshes_.find({index, weights});
+    if (shown == meshes_.end()) {
+      std::vector<std::size_t> read = read_mesh(index, weights);
+      shown = meshes_.try_emplace({index, std::move(weights)}, std::move(read)).first;
+    }
+    const std::vector<std::size_t>& meshes = shown->second;
+    if (meshes.size() > most_objects - model_.objects.size())
       document_->fail(place, fmt::format("the scene shows more than {} meshes", most_objects),
                       "expected fewer");
     std::string name = node.name.empty() ? document_->model.meshes[index].name : node.name;
     if (name.empty()) name = place;
-    for (const std::size_t mesh : *meshes_[index]) model_.objects.push_back({name, mesh, world_from_node});
+    for (const std::size_t mesh : meshes) model_.objects.push_back({name, mesh, world_from_node});
+  }
+
+  /// One weight for each morph target of the mesh that the node shows: the caller's, else the node's, else
+  /// the mesh's, else 0.
+  std::vector<double> weights_of(const tinygltf::Node& node, const std::string& place) {
+    const tinygltf::Mesh& mesh = document_->model.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::string mesh_place = fmt::format("meshes[{}]", node.mesh);
+    const std::size_t count = mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
+      if (const std::size_t other = mesh.primitives[i].targets.size(); other != count)
+        document_->fail(fmt::format("{}.primitives[{}].targets", mesh_place, i),
+                        fmt::format("has {} entries but primitives[0] has {}", other, count),
+                        "expected the same morph targets in all primitives of a mesh");
+    const auto require_count = [&](const std::vector<double>& weights, const std::string& owner) {
+      if (!weights.empty() && weights.size() != count)
+        document_->fail(
+            owner + ".weights",
+            fmt::format("has {} entries but the mesh has {} morph targets", weights.size(), count),
+            "expected one a morph target");
+    };
+    require_count(mesh.weights, mesh_place);
+    require_count(node.weights, place);
+    std::vector<double> weights = node.weights.empty() ? mesh.weights : node.weights;
+    weights.resize(count, 0.0);
+    std::copy_n(morph_weights_.begin(), std::min(morph_weights_.size(), count), weights.begin());
+    most_targets_ = std::max(most_targets_, count);
+    return weights;
   }
 
   /// Adds the mesh's primitives to the model, points and lines left out; their places there.
-  std::vector<std::size_t> read_mesh(std::size_t index) {
+  std::vector<std::size_t> read_mesh(std::size_t index, std::span<const double> weights) {
     std::vector<std::size_t> places;
     const std::vector<tinygltf::Primitive>& primitives = document_->model.meshes[index].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -148,9 +190,9 @@ class Reader {
       const auto& normal = model_.materials[material].normal;
       const auto tangent_set = static_cast<std::size_t>(normal ? normal->uv_set : 0);
       places.push_back(model_.meshes.size());
-      model_.meshes.push_back(gltf::read_primitive(*document_, primitives[i],
-                                                   fmt::format("meshes[{}].primitives[{}]", index, i),
-                                                   static_cast<std::uint32_t>(material), tangent_set));
+      model_.meshes.push_back(
+          gltf::read_primitive(*document_, primitives[i], fmt::format("meshes[{}].primitives[{}]", index, i),
+                               static_cast<std::uint32_t>(material), tangent_set, weights));
     }
     return places;
   }
@@ -165,16 +207,20 @@ class Reader {
   }
 
   const Document* document_;
-  std::vector<std::optional<std::vector<std::size_t>>> meshes_; ///< places in the model, once read
+  std::span<const double> morph_weights_;
+  /// Places in the model of a mesh with these weights, once read.
+  std::map<std::pair<std::size_t, std::vector<double>>, std::vector<std::size_t>> meshes_{};
+  std::size_t most_targets_ = 0; ///< of the meshes that are shown
   std::optional<std::size_t> default_material_{};
   Model model_{};
 };
 
 } // namespace
 
-Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> bytes,
+                std::span<const double> morph_weights) {
   const Document document = gltf::read_document(file, bytes);
-  return Reader(document).read();
+  return Reader(document, morph_weights).read();
 }
 
 } // namespace surfgrad::io

@@ -1,12 +1,14 @@
 #include "io/gltf_primitive.hpp"
 
 #include "io/gltf_accessor.hpp"
+#include "mesh/morph.hpp"
 #include "mesh/normals.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <string>
@@ -42,17 +44,14 @@ std::vector<Triangle> assemble(const Document& document, const std::string& plac
   return result;
 }
 
-/// Reads the vertex attributes of one primitive; all must have as many elements as POSITION.
+using Accessors = std::map<std::string, int>;
+
+/// Reads vertex attributes, each with one element a vertex.
 class Attributes {
  public:
-  Attributes(const Document& document, const tinygltf::Primitive& primitive, const std::string& place)
-      : document_(&document), accessors_(&primitive.attributes), place_(place + ".attributes") {
-    if (!accessors_->contains("POSITION"))
-      document.fail(place_, "\"POSITION\" is missing", "expected the key \"POSITION\" here");
-    vertex_count_ = read("POSITION", Attribute::position).size() / 3;
-  }
-
-  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+  Attributes(const Document& document, const Accessors& accessors, std::string place,
+             std::size_t vertex_count)
+      : document_(&document), accessors_(&accessors), place_(std::move(place)), vertex_count_(vertex_count) {}
 
   /// An attribute made of vec3 or vec4; empty if there is none.
   template <class Vector>
@@ -92,38 +91,78 @@ class Attributes {
     const std::string place = fmt::format("{}.{}", place_, key);
     std::vector<float> result = read_attribute(*document_, accessor->second, attribute, place);
     const std::size_t count = result.size() / component_count(attribute);
-    if (vertex_count_ > 0 && count != vertex_count_)
+    if (count != vertex_count_)
       document_->fail(place, fmt::format("has {} elements but POSITION has {}", count, vertex_count_),
                       "expected one a vertex");
     return result;
   }
 
   const Document* document_;
-  const std::map<std::string, int>* accessors_;
+  const Accessors* accessors_;
   std::string place_;
-  std::size_t vertex_count_ = 0; ///< 0: POSITION is still to be read
+  std::size_t vertex_count_;
 };
+
+/// How many vertices POSITION gives the primitive; all other attributes must have as many.
+std::size_t vertex_count_of(const Document& document, const Accessors& accessors, const std::string& place) {
+  const auto positions = accessors.find("POSITION");
+  if (positions == accessors.end())
+    document.fail(place, "\"POSITION\" is missing", "expected the key \"POSITION\" here");
+  return document.model.accessors[static_cast<std::size_t>(positions->second)].count;
+}
+
+/// All targets are read, so that a mistake shows whatever the weights; those of weight 0 are left empty.
+std::vector<mesh::MorphTarget> read_targets(const Document& document, const tinygltf::Primitive& primitive,
+                                            const std::string& place, std::size_t vertex_count,
+                                            std::span<const double> weights) {
+  std::vector<mesh::MorphTarget> targets(primitive.targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Accessors& accessors = primitive.targets[i];
+    const std::string target_place = fmt::format("{}.targets[{}]", place, i);
+    for (const char* key : {"NORMAL", "TANGENT"})
+      if (accessors.contains(key) && !primitive.attributes.contains(key))
+        document.fail(fmt::format("{}.{}", target_place, key), "moves what the primitive does not have",
+                      fmt::format("expected \"{}\" among its attributes too", key));
+    const Attributes attributes(document, accessors, target_place, vertex_count);
+    // A tangent's w does not move: its difference is made as a normal's is.
+    mesh::MorphTarget target{.positions = attributes.vectors<vec3<float>>("POSITION", Attribute::position),
+                             .normals = attributes.vectors<vec3<float>>("NORMAL", Attribute::normal),
+                             .tangents = attributes.vectors<vec3<float>>("TANGENT", Attribute::normal)};
+    if (weights[i] != 0) targets[i] = std::move(target);
+  }
+  return targets;
+}
+
+bool is_finite(const mesh::TriangleMesh& mesh) {
+  const auto finite = [](const auto& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  return std::ranges::all_of(mesh.positions, finite) && std::ranges::all_of(mesh.normals, finite) &&
+         std::ranges::all_of(mesh.tangent_spaces,
+                             [&](const auto& space) { return std::ranges::all_of(space.corners, finite); });
+}
 
 } // namespace
 
 mesh::TriangleMesh read_primitive(const Document& document, const tinygltf::Primitive& primitive,
-                                  const std::string& place, std::uint32_t material, std::size_t tangent_set) {
-  const Attributes attributes(document, primitive, place);
+                                  const std::string& place, std::uint32_t material, std::size_t tangent_set,
+                                  std::span<const double> morph_weights) {
+  const std::string attributes_place = place + ".attributes";
+  const std::size_t vertex_count = vertex_count_of(document, primitive.attributes, attributes_place);
+  const Attributes attributes(document, primitive.attributes, attributes_place, vertex_count);
+  mesh::TriangleMesh mesh;
+  mesh.positions = attributes.vectors<vec3<float>>("POSITION", Attribute::position);
   std::vector<std::uint32_t> indices;
   if (primitive.indices >= 0) {
-    indices = read_indices(document, primitive.indices, attributes.vertex_count(), place + ".indices");
+    indices = read_indices(document, primitive.indices, vertex_count, place + ".indices");
   } else {
-    indices.resize(attributes.vertex_count());
+    indices.resize(vertex_count);
     std::iota(indices.begin(), indices.end(), 0u);
   }
-
-  mesh::TriangleMesh mesh;
   mesh.triangles = assemble(document, place, primitive.mode, indices);
   mesh.material_of_triangle.assign(mesh.triangles.size(), material);
-  mesh.positions = attributes.vectors<vec3<float>>("POSITION", Attribute::position);
   mesh.normals = attributes.vectors<vec3<float>>("NORMAL", Attribute::normal);
   mesh.uv_sets = attributes.uv_sets();
-  if (mesh.normals.empty()) return mesh::with_flat_normals(mesh);
 
   const auto tangents = attributes.vectors<vec4<float>>("TANGENT", Attribute::tangent);
   if (!tangents.empty() && tangent_set < mesh.uv_sets.size()) {
@@ -133,7 +172,15 @@ mesh::TriangleMesh read_primitive(const Document& document, const tinygltf::Prim
     for (const Triangle& triangle : mesh.triangles)
       for (const std::uint32_t vertex : triangle) corners.push_back(tangents[vertex]);
   }
-  return mesh;
+
+  if (!primitive.targets.empty()) {
+    mesh = mesh::morph(mesh, read_targets(document, primitive, place, vertex_count, morph_weights),
+                       morph_weights);
+    if (!is_finite(mesh))
+      document.fail(place + ".targets", "move a vertex farther than a number can tell",
+                    "expected smaller weights of its morph targets");
+  }
+  return mesh.normals.empty() ? mesh::with_flat_normals(mesh) : mesh;
 }
 
 } // namespace surfgrad::io::gltf

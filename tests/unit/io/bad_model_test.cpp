@@ -535,6 +535,8 @@ TEST(BadModel, RandomlyDamagedFilesAreReadOrRefused) {
                      {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}});
   set_sparse(document, {1, 2});
   document.json["materials"] = json::array();
+  primitive(document)["targets"] = {{{"POSITION", 0}, {"NORMAL", 1}}};
+  document.json["meshes"][0]["weights"] = {0.5};
   const std::string glb = document.glb();
   const std::string obj =
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 1\nvn 0 0 1\nusemtl a\nf 1/1/1 -2/1/1 3/1/1 1 \\\n2\n";

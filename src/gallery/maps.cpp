@@ -1,0 +1,152 @@
+#include "gallery/maps.hpp"
+
+#include "bake/bake.hpp"
+#include "gallery/blending.hpp"
+#include "gallery/meshes.hpp"
+#include "gallery/parts.hpp"
+#include "scene/demo_maps.hpp"
+#include "scene/map_functions.hpp"
+
+#include <surfgrad/noise.hpp>
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace surfgrad::gallery {
+namespace {
+
+using image::Image;
+
+constexpr int size = 512; // of every map: a picture's size, and quick to make
+
+Image flat() {
+  return scene::normal_map_of(size, [](double, double) { return 0.0; });
+}
+
+/// A hash of lattice points that repeats after `period` of them along x and y.
+struct PeriodicHash {
+  int period;
+  [[nodiscard]] auto operator()(index_t<double> x, index_t<double> y, index_t<double> z) const {
+    const auto wrapped = [this](index_t<double> i) { return ((i % period) + period) % period; };
+    return lattice_hash<double>(wrapped(x), wrapped(y), z);
+  }
+};
+
+Image grain() {
+  return scene::normal_map_of(size, [](double s, double t) {
+    double sum = 0;
+    double amplitude = 0.03;
+    for (int cells = 8; cells <= 64; cells *= 2) {
+      // Planes half way between lattice layers, where the noise is liveliest.
+      const vec3<double> p{cells * s, cells * t, cells + 0.5};
+      sum += amplitude * perlin(p, PeriodicHash{cells}).value;
+      amplitude *= 0.6;
+    }
+    return sum;
+  });
+}
+
+Image studs() {
+  return scene::normal_map_of(size, [](double s, double t) {
+    constexpr int rows = 4;
+    const double u = 2 * scene::fraction(rows * s) - 1;
+    const double v = 2 * scene::fraction(rows * t) - 1;
+    const double r2 = u * u + v * v;
+    // A paraboloid, 2.2 steep at its foot, that leaves the ground smoothly.
+    const double dome = std::max(0.75 - r2, 0.0);
+    return 1.3 / (2 * rows) * dome * dome / (dome + 0.06);
+  });
+}
+
+Image ripples() {
+  return scene::normal_map_of(size, [](double s, double t) {
+    constexpr int waves = 16;
+    return 0.35 / waves * (scene::arch(waves * (s + t)) - 0.5);
+  });
+}
+
+Image rock_object() {
+  Image map = image::make_image(size, size, 3, image::Depth::unorm16);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const vec2<double> uv{(x + 0.5) / size, (y + 0.5) / size};
+      scene::set_normal(map, x, y, rock_point(unwrapped_direction(uv), rock_all_octaves).normal);
+    }
+  return map;
+}
+
+/// What `surfgrad bake` makes of the rock under its object-space normals, continued into the gutters
+/// between the charts, where the filter may look.
+Image rock(Maps& maps) {
+  scene::Scene scene = scene_of(rock_mesh());
+  stack::ObjectNormalMapLayer layer;
+  layer.common.key = "rock";
+  layer.map.file = maps.in(scene, "rock object");
+  scene.materials[0].layers = {layer};
+  const Image baked = bake::bake(scene, {.width = size, .height = size}).map;
+  Image map = baked;
+  constexpr double inset = 0.02; // more than a texel, so that the nearest one is covered
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const vec2<double> uv = nearest_in_chart({(x + 0.5) / size, (y + 0.5) / size}, inset);
+      for (int channel = 0; channel < 3; ++channel)
+        map.at(x, y, channel) =
+            baked.at(static_cast<int>(uv.x * size), static_cast<int>(uv.y * size), channel);
+    }
+  return map;
+}
+
+template <vec3<double> (*blend)(vec3<double>, vec3<double>)>
+Image blended(Maps& maps, const char* base, const char* detail) {
+  return blended_map(*maps[base], *maps[detail], blend);
+}
+
+using Make = std::function<Image(Maps&)>;
+
+const std::map<std::string, Make>& makers() {
+  static const std::map<std::string, Make> table{
+      {"flat", [](Maps&) { return flat(); }},
+      {"plates", [](Maps&) { return scene::plates_normal_map(size); }},
+      {"weave", [](Maps&) { return scene::weave_normal_map(size); }},
+      {"stripes", [](Maps&) { return scene::stripes_mask(size); }},
+      {"grain", [](Maps&) { return grain(); }},
+      {"studs", [](Maps&) { return studs(); }},
+      {"ripples", [](Maps&) { return ripples(); }},
+      {"rock", rock},
+      {"rock object", [](Maps&) { return rock_object(); }},
+      {"linear", [](Maps& m) { return blended<blend_linear>(m, "studs", "ripples"); }},
+      {"udn", [](Maps& m) { return blended<blend_udn>(m, "studs", "ripples"); }},
+      {"whiteout", [](Maps& m) { return blended<blend_whiteout>(m, "studs", "ripples"); }},
+      {"reoriented", [](Maps& m) { return blended<blend_reoriented>(m, "studs", "ripples"); }},
+      {"flat linear", [](Maps& m) { return blended<blend_linear>(m, "flat", "studs"); }},
+      {"flat udn", [](Maps& m) { return blended<blend_udn>(m, "flat", "studs"); }},
+      {"flat whiteout", [](Maps& m) { return blended<blend_whiteout>(m, "flat", "studs"); }},
+      {"flat reoriented", [](Maps& m) { return blended<blend_reoriented>(m, "flat", "studs"); }}};
+  return table;
+}
+
+} // namespace
+
+std::shared_ptr<const image::Image> Maps::operator[](const std::string& name) {
+  Entry* entry = nullptr;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    entry = &entries_[name]; // references into a map stay valid
+  }
+  std::call_once(entry->once, [&] {
+    // Isolated: a thread that waits for part of this work must not take up another picture, which may
+    // wait for this very map.
+    tbb::this_task_arena::isolate(
+        [&] { entry->image = std::make_shared<const Image>(makers().at(name)(*this)); });
+  });
+  return entry->image;
+}
+
+stack::FileName Maps::in(scene::Scene& scene, const std::string& name) {
+  scene.images[name] = (*this)[name];
+  return {.path = name};
+}
+
+} // namespace surfgrad::gallery

@@ -1,0 +1,169 @@
+// Every figure of the gallery as data and as pictures.
+
+#include "diagnostic/error.hpp"
+#include "gallery/figures.hpp"
+#include "gallery/gallery.hpp"
+#include "io/image_file.hpp"
+#include "render/render.hpp"
+#include "stage/stage.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+namespace surfgrad::gallery {
+namespace {
+
+const Panel* find(const Figure& figure, const std::string& id) {
+  for (const Panel& panel : figure.panels)
+    if (panel.id == id) return &panel;
+  return nullptr;
+}
+
+TEST(Figures, HaveNamesThatFilesAndAddressesCanBear) {
+  std::set<std::string> names;
+  for (const Figure& figure : built_in_figures()) {
+    EXPECT_THAT(figure.id, testing::MatchesRegex("[a-z0-9-]+"));
+    EXPECT_FALSE(figure.title.empty());
+    EXPECT_GT(figure.caption.size(), 40U) << figure.id;
+    EXPECT_GE(figure.panels.size(), 2U) << figure.id << " has nothing to be compared with";
+    for (const Panel& panel : figure.panels) {
+      EXPECT_THAT(panel.id, testing::MatchesRegex("[a-z0-9-]+"));
+      EXPECT_FALSE(panel.label.empty()) << figure.id;
+      EXPECT_GT(panel.look.size(), 20U) << figure.id << ": says what to look at";
+      EXPECT_TRUE(names.insert(picture_name(figure, panel)).second) << picture_name(figure, panel);
+    }
+  }
+}
+
+TEST(Figures, OlderAndWrongWaysNameTheRightOne) {
+  for (const Figure& figure : built_in_figures())
+    for (const Panel& panel : figure.panels) {
+      const bool lesser = panel.way == Way::older || panel.way == Way::wrong;
+      EXPECT_EQ(lesser, !panel.against.empty()) << picture_name(figure, panel);
+      if (!lesser) continue;
+      const Panel* right = find(figure, panel.against);
+      ASSERT_NE(right, nullptr) << picture_name(figure, panel) << " names " << panel.against;
+      EXPECT_EQ(right->way, Way::right) << picture_name(figure, panel);
+    }
+}
+
+TEST(Figures, ShowUnitNormalsOnASurfaceThatIsNowhereDegenerate) {
+  for (const Figure& figure : built_in_figures())
+    for (const Panel& panel : figure.panels) {
+      const render::Picture seen =
+          render::render(panel.scene(), {.width = 48, .height = 48, .aov = render::Aov::normal});
+      // A figure fills a good part of its picture; a culled sheet an eighth of it.
+      EXPECT_GT(seen.covered, 48 * 48 / 12) << picture_name(figure, panel);
+      EXPECT_EQ(seen.degenerate, 0) << picture_name(figure, panel);
+      std::int64_t unit = 0;
+      for (std::size_t i = 0; i < seen.image.texels.size(); i += 3) {
+        const float* n = &seen.image.texels[i];
+        // Three components rounded to float.
+        if (std::abs(std::hypot(double(n[0]), double(n[1]), double(n[2])) - 1) < 1.2e-7) ++unit;
+      }
+      EXPECT_EQ(unit, seen.covered) << picture_name(figure, panel);
+    }
+}
+
+/// Mean difference in codes of 255 over the whole picture.
+double mean_difference(const image::Image& a, const image::Image& b) {
+  if (a.texels.size() != b.texels.size()) return NAN;
+  double sum = 0;
+  for (std::size_t i = 0; i < a.texels.size(); ++i)
+    sum += std::abs(static_cast<double>(a.texels[i]) - static_cast<double>(b.texels[i]));
+  return 255 * sum / static_cast<double>(a.texels.size());
+}
+
+// A quarter to a half of a picture is background. A mean of two codes over all of it is a difference of
+// about four on the surface, where shading differs by tens in some places and by nothing in others.
+constexpr double seen_at_a_glance = 2.0;
+
+TEST(Figures, DifferAtAGlanceWhereOneIsOlderOrWrongAndAgreeWhereTheyShould) {
+  const std::vector<Figure> figures = built_in_figures();
+  std::map<std::string, image::Image> pictures;
+  for (const File& file : draw(figures, {.width = 64, .height = 64, .samples = 2}).pictures)
+    pictures[file.name] = io::decode_image(file.bytes, file.name);
+  double least = 255;
+  std::string where;
+  for (const Figure& figure : figures)
+    for (const Panel& panel : figure.panels) {
+      if (panel.against.empty()) continue;
+      const double difference =
+          mean_difference(pictures.at(picture_name(figure, panel)),
+                          pictures.at(picture_name(figure, *find(figure, panel.against))));
+      EXPECT_GT(difference, seen_at_a_glance) << picture_name(figure, panel);
+      if (difference < least) {
+        least = difference;
+        where = picture_name(figure, panel);
+      }
+    }
+  std::printf("  least difference %.2f codes: %s\n", least, where.c_str());
+
+  const auto differ = [&](const char* a, const char* b) {
+    return mean_difference(pictures.at(a), pictures.at(b));
+  };
+  // Two frames for the same map; two spaces of the same shape (one baked through a tangent space and
+  // 16-bit codes, then filtered as slopes instead of directions).
+  EXPECT_LT(differ("bases-vertex.png", "bases-derived.png"), 0.5);
+  EXPECT_LT(differ("spaces-tangent.png", "spaces-object.png"), 0.7);
+  // A flat layer changes nothing but by its own code: 32768 / 65535 is not quite one half.
+  EXPECT_LT(differ("blending-flat-surface-gradient.png", "blending-flat-whiteout.png"), 0.02);
+  EXPECT_LT(differ("blending-flat-surface-gradient.png", "blending-flat-reoriented.png"), 0.02);
+}
+
+TEST(Figures, OnlyThoseThatAreToGoWrongMakeTheStageWarn) {
+  // Given tangents that contradict the texture; RNM turns steep details past the horizon.
+  const std::set<std::string> expected{"bases-careless.png", "mirrored-wrong.png", "blending-reoriented.png"};
+  std::set<std::string> warned;
+  for (const Figure& figure : built_in_figures())
+    for (const Panel& panel : figure.panels) {
+      const scene::Scene scene = panel.scene();
+      const auto note = [&](std::string_view) { warned.insert(picture_name(figure, panel)); };
+      const stage::Stage stage(scene, {0, 0, 0}, {}, {.warning = note});
+    }
+  EXPECT_EQ(warned, expected);
+}
+
+TEST(Figures, SameBytesOnAnyNumberOfThreads) {
+  // Fresh maps each time: they, too, are made by whoever comes first. The first figure bakes one.
+  const auto bytes = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<std::vector<std::byte>> all;
+    for (const File& file :
+         draw({built_in_figures().front()}, {.width = 40, .height = 40, .samples = 1}).pictures)
+      all.push_back(file.bytes);
+    return all;
+  };
+  const auto one = bytes(1);
+  EXPECT_EQ(one, bytes(2));
+  EXPECT_EQ(one, bytes(5));
+}
+
+TEST(Figures, ProgressNeverRunsBackAndEndsAtOne) {
+  std::vector<double> fractions;
+  const std::vector<Figure> some{built_in_figures().front()};
+  static_cast<void>(draw(some, {.width = 16, .height = 16, .samples = 1}, {.progress = [&](double fraction) {
+                           fractions.push_back(fraction);
+                           return true;
+                         }}));
+  ASSERT_FALSE(fractions.empty());
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.back(), 1);
+}
+
+TEST(Figures, DrawingStopsWhenAskedTo) {
+  const std::vector<Figure> some{built_in_figures().front()};
+  EXPECT_THROW(static_cast<void>(draw(some, {.width = 16, .height = 16, .samples = 1},
+                                      {.progress = [](double) { return false; }})),
+               Cancelled);
+}
+
+} // namespace
+} // namespace surfgrad::gallery
