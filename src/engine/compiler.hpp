@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/bump_map.hpp"
+#include "engine/layers/height_map.hpp"
 #include "engine/layers/influence.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
@@ -34,6 +35,8 @@ class Compiler {
 
 // One for each kind, beside its kernel in layers/.
 [[nodiscard]] NormalMap compiled(const stack::NormalMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] NormalMap compiled(const stack::DerivativeMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] HeightMap compiled(const stack::HeightMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] ObjectNormalMap compiled(const stack::ObjectNormalMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
 

@@ -3,6 +3,8 @@
 /// The stack: a JSON document of bump layers, read into structs whose every value is in its range.
 /// docs/stack-format.md describes the document, docs/stack.schema.json is its schema.
 
+#include "stack/layers/derivative_map.hpp"
+#include "stack/layers/height_map.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
 #include "stack/layers/resolve.hpp"
@@ -15,7 +17,8 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer = std::variant<NormalMapLayer, ObjectNormalMapLayer, ResolveLayer>;
+using Layer =
+    std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

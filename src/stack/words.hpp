@@ -30,6 +30,15 @@ enum class Green { up, down };
 /// per fragment from the texture coordinate.
 enum class Basis { mikktspace, derived };
 enum class Space { object, world };
+/// Whether heights displace the surface, so that a map that repeats more often is steeper, or only
+/// stand for slopes, as normal maps do, whatever the size they are laid on with.
+enum class HeightMode { physical, scale_free };
+/// What displacements are measured in: the scene's units, or the object's, which grow with it.
+enum class Units { scene, object };
+/// How the slope of a height map is measured in a pixel: from one height a pixel, by differences within
+/// blocks of 2x2 pixels; from three; or from three where the map is minified, and where it is magnified
+/// from a smooth surface through 4x4 texels.
+enum class Taps { one, three, bicubic };
 /// What a surface seen from behind shows. same: the front's normal; mirror: the interpolated normal
 /// negated; flip: that, and the bumps negated too; cull: nothing.
 enum class BackFaces { same, mirror, flip, cull };
@@ -78,6 +87,15 @@ inline constexpr auto words_of<Basis> = std::to_array<Word<Basis>>({{"mikktspace
 template <>
 inline constexpr auto words_of<Space> = std::to_array<Word<Space>>({{"object", Space::object},
                                                                     {"world", Space::world}});
+template <>
+inline constexpr auto words_of<HeightMode> = std::to_array<Word<HeightMode>>(
+    {{"physical", HeightMode::physical}, {"scale_free", HeightMode::scale_free}});
+template <>
+inline constexpr auto words_of<Units> = std::to_array<Word<Units>>({{"scene", Units::scene},
+                                                                    {"object", Units::object}});
+template <>
+inline constexpr auto words_of<Taps> =
+    std::to_array<Word<Taps>>({{"one", Taps::one}, {"three", Taps::three}, {"bicubic", Taps::bicubic}});
 template <>
 inline constexpr auto words_of<BackFaces> = std::to_array<Word<BackFaces>>({{"same", BackFaces::same},
                                                                             {"mirror", BackFaces::mirror},

@@ -6,7 +6,7 @@
 
 namespace surfgrad::engine {
 
-/// A tangent-space normal map, stored as slopes.
+/// A tangent-space normal map or a derivative map: both are stored as slopes.
 struct NormalMap {
   Influence influence{};
   Texture texture{};
@@ -50,7 +50,7 @@ template <Scalar T>
   return {select<T>(collapsed, none, basis.tangent), select<T>(collapsed, none, basis.bitangent)};
 }
 
-/// Surface gradient of a tangent-space normal map at a point.
+/// Surface gradient of a tangent-space normal map or a derivative map at a point.
 ///
 /// degenerate   (out) set where the texture coordinate or the vertex frame has collapsed; the
 ///              gradient is zero there

@@ -40,6 +40,24 @@ inline stack::NormalMapLayer normal_layer(const char* map, int uv = 0,
   return layer;
 }
 
+inline stack::DerivativeMapLayer derivative_layer(const char* map, int uv = 0,
+                                                  stack::Basis basis = stack::Basis::mikktspace) {
+  stack::DerivativeMapLayer layer;
+  layer.map.file.path = map;
+  layer.map.uv = uv;
+  layer.basis = basis;
+  return layer;
+}
+
+inline stack::HeightMapLayer height_layer(const char* map, double height = 1,
+                                          stack::HeightMode mode = stack::HeightMode::physical) {
+  stack::HeightMapLayer layer;
+  layer.map.file.path = map;
+  layer.height = height;
+  layer.mode = mode;
+  return layer;
+}
+
 inline stack::ObjectNormalMapLayer object_layer(const char* map, stack::Space space = stack::Space::object) {
   stack::ObjectNormalMapLayer layer;
   layer.map.file.path = map;
@@ -120,7 +138,19 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
   c.common.opacity = 0.2;
   stack::ObjectNormalMapLayer d = object_layer("d", stack::Space::world);
   d.common.scale = 0.1;
-  return {normal_layer("a"), b, c, d};
+  lab.add("slopes", surfgrad::test::random_image(random, 8, 8, 2));
+  lab.add("heights", surfgrad::test::random_image(random, 16, 8, 1));
+  stack::HeightMapLayer smooth = height_layer("heights", 0.02);
+  smooth.taps = stack::Taps::bicubic;
+  smooth.map.wrap = stack::Wrap::mirror;
+  stack::HeightMapLayer of_object = height_layer("heights", -0.02);
+  of_object.units = stack::Units::object;
+  of_object.taps = stack::Taps::one;
+  of_object.map.uv = 1;
+  stack::HeightMapLayer scale_free = height_layer("heights", 0.02, stack::HeightMode::scale_free);
+  scale_free.taps = stack::Taps::bicubic;
+  scale_free.map.wrap = stack::Wrap::mirror;
+  return {normal_layer("a"), b, c, d, derivative_layer("slopes"), smooth, of_object, scale_free};
 }
 
 } // namespace surfgrad::engine::test
