@@ -98,12 +98,6 @@ template <Scalar T>
   return inverse * rotate(period * change, tile.rotation);
 }
 
-/// A slope of the map's image, whose texels count as square, sampled in a tile: expressed along st'.
-template <Scalar T>
-[[nodiscard]] vec2<T> slope_from_tile(const MapTile<T>& tile, vec2<T> slope) {
-  return tile.plain ? slope : rotate_back(slope, tile.rotation);
-}
-
 /// A derivative of a height by tile.st: its derivative by st'.
 template <Scalar T>
 [[nodiscard]] vec2<T> derivative_from_tile(const MapTile<T>& tile, vec2<T> dh) {
@@ -204,6 +198,13 @@ template <LaneScalar T>
   return hex_derivative(tiles.hex, hex_weights(tiles.hex, slopes), slopes);
 }
 
+/// Where a coordinate st' or a tile reads a map of derivatives of heights: the derivative by that.
+template <LaneScalar T>
+[[nodiscard]] vec2<T> slope_of_heights(const TiledMap& tiled, vec2<T> st, T lod) {
+  const std::array<T, 2> texel = sample_at<2>(tiled, st, lod);
+  return image::mirrored_slope(st, vec2<T>{texel[0], texel[1]}, tiled.wrap);
+}
+
 /// The derivative by st' of the heights whose derivatives by the whole map `tiled` holds (by_coordinate
 /// takes it to st).
 template <LaneScalar T>
@@ -211,9 +212,7 @@ template <LaneScalar T>
                                            vec2<T> footprint_dy) {
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
   return height_derivative(tiled, map_coordinate(tiled, st), [&](const MapTile<T>& tile) {
-    const std::array<T, 2> texel = sample_at<2>(tiled, tile.st, lod);
-    const vec2<T> dh = image::mirrored_slope(tile.st, vec2<T>{texel[0], texel[1]}, tiled.wrap);
-    return derivative_from_tile(tile, dh);
+    return derivative_from_tile(tile, slope_of_heights(tiled, tile.st, lod));
   });
 }
 
