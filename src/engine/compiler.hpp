@@ -3,6 +3,7 @@
 #include "engine/bump_map.hpp"
 #include "engine/layers/height_map.hpp"
 #include "engine/layers/influence.hpp"
+#include "engine/layers/noise.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
 #include "engine/layers/resolve.hpp"
@@ -38,6 +39,7 @@ class Compiler {
 [[nodiscard]] NormalMap compiled(const stack::DerivativeMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] HeightMap compiled(const stack::HeightMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] ObjectNormalMap compiled(const stack::ObjectNormalMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] VolumeNoise compiled(const stack::NoiseLayer& layer, const Compiler& compiler);
 [[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
 
 } // namespace surfgrad::engine

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/layers/height_map.hpp"
+#include "engine/layers/noise.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
 #include "engine/layers/resolve.hpp"
@@ -15,7 +16,7 @@ namespace surfgrad::engine {
 
 /// The layers of one material, ready to run: maps loaded, numbers folded.
 struct Program {
-  std::vector<std::variant<NormalMap, HeightMap, ObjectNormalMap, Resolve>> layers;
+  std::vector<std::variant<NormalMap, HeightMap, ObjectNormalMap, VolumeNoise, Resolve>> layers;
 };
 
 /// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the

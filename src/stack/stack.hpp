@@ -5,6 +5,7 @@
 
 #include "stack/layers/derivative_map.hpp"
 #include "stack/layers/height_map.hpp"
+#include "stack/layers/noise.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
 #include "stack/layers/resolve.hpp"
@@ -17,8 +18,8 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer =
-    std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer, ResolveLayer>;
+using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer,
+                           NoiseLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

@@ -179,6 +179,16 @@ std::vector<KindCase> every_kind() {
          layer.map.tile = {2, 3};
          return {layer};
        }},
+      {"noise",
+       [](double) -> std::vector<stack::Layer> {
+         stack::NoiseLayer layer;
+         layer.noise.function = stack::NoiseKind::turbulence;
+         layer.noise.frequency = 1.3;
+         layer.noise.power = 2;
+         layer.common.scale = 0.1;
+         return {layer};
+       },
+       true},
   };
 }
 

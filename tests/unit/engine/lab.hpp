@@ -138,6 +138,11 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
   c.common.opacity = 0.2;
   stack::ObjectNormalMapLayer d = object_layer("d", stack::Space::world);
   d.common.scale = 0.1;
+  stack::NoiseLayer e;
+  e.noise.function = stack::NoiseKind::turbulence;
+  e.noise.frequency = 3;
+  e.noise.power = 2;
+  e.common.scale = 0.2;
   lab.add("slopes", surfgrad::test::random_image(random, 8, 8, 2));
   lab.add("heights", surfgrad::test::random_image(random, 16, 8, 1));
   stack::HeightMapLayer smooth = height_layer("heights", 0.02);
@@ -150,7 +155,7 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
   stack::HeightMapLayer scale_free = height_layer("heights", 0.02, stack::HeightMode::scale_free);
   scale_free.taps = stack::Taps::bicubic;
   scale_free.map.wrap = stack::Wrap::mirror;
-  return {normal_layer("a"), b, c, d, derivative_layer("slopes"), smooth, of_object, scale_free};
+  return {normal_layer("a"), b, c, d, derivative_layer("slopes"), smooth, of_object, scale_free, e};
 }
 
 } // namespace surfgrad::engine::test

@@ -41,10 +41,31 @@ struct StackText {
     common(l.common);
     map(l.map);
   }
+  void operator()(const DerivativeMapLayer& l) {
+    line("derivative_map basis {} range {} neutral {}", static_cast<int>(l.basis), l.code.range,
+         static_cast<int>(l.code.neutral));
+    common(l.common);
+    map(l.map);
+  }
+  void operator()(const HeightMapLayer& l) {
+    line("height_map channel {} mode {} height {} units {} taps {} basis {}", static_cast<int>(l.channel),
+         static_cast<int>(l.mode), l.height, static_cast<int>(l.units), static_cast<int>(l.taps),
+         l.basis ? static_cast<int>(*l.basis) : -1);
+    common(l.common);
+    texture(l.map);
+  }
   void operator()(const ObjectNormalMapLayer& l) {
     line("object_normal_map space {}", static_cast<int>(l.space));
     common(l.common);
     map(l.map);
+  }
+  void operator()(const NoiseLayer& l) {
+    const NoiseFunction& n = l.noise;
+    line("noise {} {} {} octaves {} {} {} power {} frequency {} offset {} {} {}",
+         static_cast<int>(n.function), static_cast<int>(n.basis), static_cast<int>(n.worley), n.octaves,
+         n.lacunarity, n.gain, n.power, n.frequency, n.offset.x, n.offset.y, n.offset.z);
+    line("space {} method {}", static_cast<int>(l.space), static_cast<int>(l.method));
+    common(l.common);
   }
   void operator()(const ResolveLayer&) { line("resolve"); }
   void layers(const std::vector<Layer>& list) {
