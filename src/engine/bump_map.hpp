@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/texture.hpp"
-#include "image/height_map.hpp"
 
 namespace surfgrad::engine {
 
@@ -18,10 +17,9 @@ struct BumpMap {
 template <LaneScalar T>
 [[nodiscard]] vec2<T> derivative(const BumpMap& bumps, vec2<T> st, vec2<T> footprint_dx,
                                  vec2<T> footprint_dy) {
-  const std::array<T, 2> texel = sample<2>(bumps.tiled, st, footprint_dx, footprint_dy);
-  const vec2<T> d{texel[0], texel[1]};
-  if (!bumps.heights) return along_coordinate(bumps.tiled, d);
-  const vec2<T> dh = image::mirrored_slope(map_coordinate(bumps.tiled, st), d, bumps.tiled.wrap);
+  if (!bumps.heights)
+    return along_coordinate(bumps.tiled, sample_slopes(bumps.tiled, st, footprint_dx, footprint_dy));
+  const vec2<T> dh = sample_height_slopes(bumps.tiled, st, footprint_dx, footprint_dy);
   return saturated(constant<T>(bumps.height) * saturated(by_coordinate(bumps.tiled, dh)));
 }
 

@@ -45,7 +45,9 @@ TiledMap Compiler::tiled(const stack::Tiled& use, std::shared_ptr<const image::M
           rotation_of(use.rotate_deg),
           use.offset,
           {wrap_of(use.wrap), wrap_of(use.wrap_t.value_or(use.wrap))},
-          filter_of(use.filter)};
+          filter_of(use.filter),
+          // A tile turns by at most hex_turn_deg either way.
+          use.tiling == stack::Tiling::hex ? std::optional(use.hex_turn_deg / 180) : std::nullopt};
 }
 
 Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image::Map> map) const {

@@ -16,6 +16,9 @@ enum class Blend { add, mix };
 /// What lies outside the unit square of a map.
 enum class Wrap { repeat, mirror, clamp };
 enum class Filter { nearest, bilinear, trilinear };
+/// How a map covers more than its unit square: by repetition, or by blended, randomly shifted and turned
+/// copies in hexagons that hide it.
+enum class Tiling { plain, hex };
 /// Which channels of a normal map hold the vector. xy reconstructs z from the unit length; automatic
 /// is xy for a two-channel file or one of constant blue, else xyz.
 enum class Channels { automatic, xyz, xy };
@@ -90,6 +93,9 @@ template <>
 inline constexpr auto words_of<Filter> = std::to_array<Word<Filter>>({{"nearest", Filter::nearest},
                                                                       {"bilinear", Filter::bilinear},
                                                                       {"trilinear", Filter::trilinear}});
+template <>
+inline constexpr auto words_of<Tiling> = std::to_array<Word<Tiling>>({{"plain", Tiling::plain},
+                                                                      {"hex", Tiling::hex}});
 template <>
 inline constexpr auto words_of<Channels> = std::to_array<Word<Channels>>({{"xyz", Channels::xyz},
                                                                           {"xy", Channels::xy}});

@@ -52,26 +52,24 @@ template <LaneScalar T>
 [[nodiscard]] vec2<T> height_per_pixel(const HeightMap& layer, const raster::Fragment<T>& fragment) {
   const TiledMap& tiled = layer.texture.tiled;
   const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(layer.texture.slot)];
-  const vec2<T> dx = in_map(tiled, uv.dst_dx);
-  const vec2<T> dy = in_map(tiled, uv.dst_dy);
   const T lod = level_of_detail(tiled, uv.footprint_dx, uv.footprint_dy);
-  const vec2<T> here = map_coordinate(tiled, uv.st);
-  vec2<T> first = here;
-  if (layer.across_quad) {
-    // The pixels of a block share the differences between its first pixel and the two next to that.
-    const auto odd = [](T raster) {
-      const T pixel = floor(raster);
-      return pixel - T(value_t<T>(2)) * floor(constant<T>(0.5) * pixel);
-    };
-    first = here - odd(fragment.raster.x) * dx - odd(fragment.raster.y) * dy;
-  }
-  const T one = T(value_t<T>(1));
-  const auto height = [&](vec2<T> st) {
-    return image::sample<1>(*tiled.map, st, lod, tiled.wrap, tiled.filter, mask_t<T>(one == one))[0];
-  };
-  const vec2<T> taps = derivative_from_heights(height(first), height(first + dx), height(first + dy));
-  return smoothed(layer, here, lod, taps, [&](vec2<T> dh) { // listing 8's chain rule
-    return vec2<T>{dot(dh, dx), dot(dh, dy)};
+  const auto height = [&](vec2<T> st) { return sample_at<1>(tiled, st, lod)[0]; };
+  return height_derivative(tiled, map_coordinate(tiled, uv.st), [&](const MapTile<T>& tile) {
+    const vec2<T> dx = in_tile(tile, in_map(tiled, uv.dst_dx));
+    const vec2<T> dy = in_tile(tile, in_map(tiled, uv.dst_dy));
+    vec2<T> first = tile.st;
+    if (layer.across_quad) {
+      // The pixels of a block share the differences between its first pixel and the two next to that.
+      const auto odd = [](T raster) {
+        const T pixel = floor(raster);
+        return pixel - T(value_t<T>(2)) * floor(constant<T>(0.5) * pixel);
+      };
+      first = tile.st - odd(fragment.raster.x) * dx - odd(fragment.raster.y) * dy;
+    }
+    const vec2<T> taps = derivative_from_heights(height(first), height(first + dx), height(first + dy));
+    return smoothed(layer, tile.st, lod, taps, [&](vec2<T> dh) { // listing 8's chain rule
+      return vec2<T>{dot(dh, dx), dot(dh, dy)};
+    });
   });
 }
 
@@ -81,11 +79,12 @@ template <LaneScalar T>
 [[nodiscard]] vec2<T> scale_free_slope(const HeightMap& layer, const raster::Fragment<T>& fragment) {
   const TiledMap& tiled = layer.texture.tiled;
   const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(layer.texture.slot)];
-  const vec2<T> st = map_coordinate(tiled, uv.st);
-  const std::array<T, 2> texel = sample<2>(layer.texture, fragment);
-  const vec2<T> by_map = image::mirrored_slope(st, vec2<T>{texel[0], texel[1]}, tiled.wrap);
   const T lod = level_of_detail(tiled, uv.footprint_dx, uv.footprint_dy);
-  const vec2<T> dh = smoothed(layer, st, lod, by_map, [](vec2<T> d) { return d; });
+  const vec2<T> st = map_coordinate(tiled, uv.st);
+  const vec2<T> dh = height_derivative(tiled, st, [&](const MapTile<T>& tile) {
+    const vec2<T> by_map = slope_of_heights(tiled, tile.st, lod);
+    return derivative_from_tile(tile, smoothed(layer, tile.st, lod, by_map, [](vec2<T> d) { return d; }));
+  });
   const double height_by_width = static_cast<double>(tiled.map->height()) / tiled.map->width();
   const vec2<T> height{constant<T>(layer.height), constant<T>(layer.height / height_by_width)};
   const vec2<T> slope = saturated(height * dh);

@@ -59,9 +59,8 @@ template <LaneScalar T>
   mask_t<T> collapsed;
   const TangentFrame<T> basis = frame_of(point, layer.texture.slot, layer.derived, collapsed);
   degenerate = degenerate | collapsed;
-  const std::array<T, 2> slope = sample<2>(layer.texture, point.fragment);
-  return from_tbn(along_coordinate(layer.texture.tiled, vec2<T>{slope[0], slope[1]}), basis.tangent,
-                  basis.bitangent);
+  const vec2<T> slope = sample_slopes(layer.texture, point.fragment);
+  return from_tbn(along_coordinate(layer.texture.tiled, slope), basis.tangent, basis.bitangent);
 }
 
 } // namespace surfgrad::engine

@@ -192,6 +192,14 @@ std::vector<KindCase> every_kind() {
   return {
       {"normal_map", normal_map(stack::Basis::mikktspace), false, true},
       {"normal_map_derived", normal_map(stack::Basis::derived)},
+      {"normal_map_on_hex_tiles",
+       [=](double scale) {
+         std::vector<stack::Layer> layers = normal_map(stack::Basis::derived)(scale);
+         auto& layer = std::get<stack::NormalMapLayer>(layers[0]);
+         layer.map.tiling = stack::Tiling::hex;
+         layer.common.mask->tiling = stack::Tiling::hex;
+         return layers;
+       }},
       {"object_normal_map",
        [](double) -> std::vector<stack::Layer> {
          stack::ObjectNormalMapLayer layer = object_layer("directions");

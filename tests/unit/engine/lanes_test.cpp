@@ -113,6 +113,15 @@ TEST(ComposeLanes, EqualOneLaneInEveryBackFaceMode) {
   test::Lab lab;
   std::vector<stack::Layer> layers = test::one_of_each(lab, random);
   layers.insert(layers.begin() + 2, stack::ResolveLayer{});
+  stack::NormalMapLayer hex = test::normal_layer("b");
+  hex.map.tiling = stack::Tiling::hex;
+  hex.common.mask = test::mask_of("mask");
+  hex.common.mask->tiling = stack::Tiling::hex;
+  layers.emplace_back(hex);
+  stack::HeightMapLayer heights = test::height_layer("heights", 0.02);
+  heights.map.tiling = stack::Tiling::hex;
+  heights.taps = stack::Taps::bicubic;
+  layers.emplace_back(heights);
   lab.add("relief", surfgrad::test::random_image(random, 16, 8, 1));
   stack::ParallaxLayer parallax = test::parallax_layer("relief", 0.1);
   parallax.self_shadow = true;

@@ -51,7 +51,7 @@ std::string in_heights(const std::string& keys) {
 }
 
 constexpr const char* layer_keys =
-    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, "
+    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, "
     "channels, basis, scale, mask, opacity, blend";
 
 const Case not_json[] = {
@@ -183,6 +183,20 @@ const Case wrong_layer[] = {
      "expected an array of 2 numbers"},
     {"wrap_word", in_layer("\"wrap\": \"tile\""), 5, "layers[0].wrap", "is \"tile\"",
      "expected one of: repeat, mirror, clamp"},
+    {"tiling_word", in_layer("\"tiling\": \"hexagon\""), 5, "layers[0].tiling", "is \"hexagon\"",
+     "expected one of: plain, hex"},
+    {"hex_tiles_of_a_clamped_map", in_layer("\"tiling\": \"hex\",\n\"wrap\": \"clamp\""), 6, "layers[0].wrap",
+     "does not go with hex tiling", "expected \"repeat\", or no \"tiling\""},
+    {"hex_tiles_of_a_mirrored_mask", in_mask("\"wrap\": \"mirror\", \"tiling\": \"hex\""), 6,
+     "layers[0].mask.wrap", "does not go with hex tiling", "expected \"repeat\", or no \"tiling\""},
+    {"turn_of_plain_tiles", in_layer("\"hex_turn\": 0"), 5, "layers[0].hex_turn",
+     "does not apply to plain tiling", "leave it out, or give \"tiling\": \"hex\""},
+    {"turn_beyond_half", in_layer("\"tiling\": \"hex\", \"hex_turn\": 181"), 5, "layers[0].hex_turn",
+     "is 181", "expected a number from 0 to 180"},
+    {"hex_tiles_of_whole_normals",
+     in_document("\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"tiling\": \"hex\"} ]"),
+     3, "layers[0].tiling", "is \"hex\", but whole normals do not turn with the tiles of a map",
+     "leave it out, or give a tangent-space map"},
     {"filter_word", in_layer("\"filter\": \"linear\""), 5, "layers[0].filter", "is \"linear\"",
      "did you mean \"bilinear\"? expected one of: nearest, bilinear, trilinear"},
     {"channels_word", in_layer("\"channels\": \"rgb\""), 5, "layers[0].channels", "is \"rgb\"",
@@ -198,9 +212,10 @@ const Case wrong_layer[] = {
     {"mask_channel", in_mask("\"channel\": \"x\""), 6, "layers[0].mask.channel", "is \"x\"",
      "expected one of: r, g, b, a"},
     {"mask_green", in_mask("\"green\": \"up\""), 6, "layers[0].mask", "unknown key \"green\"",
-     "expected one of: map, uv, tile, rotate, offset, wrap, filter, channel"},
+     "expected one of: map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, channel"},
     {"mask_key_slip", in_mask("\"chanel\": \"r\""), 6, "layers[0].mask", "unknown key \"chanel\"",
-     "did you mean \"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, channel"},
+     "did you mean \"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, tiling, "
+     "hex_turn, channel"},
     {"space_of_a_tangent_map", in_layer("\"space\": \"object\""), 5, "layers[0]", "unknown key \"space\"",
      layer_keys},
     {"unknown_key_without_a_near_one", in_layer("\"strength\": 1"), 5, "layers[0]",
@@ -214,7 +229,8 @@ const Case wrong_layer[] = {
      in_document(
          "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"basis\": \"derived\"} ]"),
      3, "layers[0]", "unknown key \"basis\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, space, scale, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, space, "
+     "scale, "
      "mask, "
      "opacity, blend"},
     {"space_word",
@@ -230,7 +246,8 @@ const Case wrong_layer[] = {
     {"channels_of_a_derivative_map",
      in_document("\"layers\": [ {\"type\": \"derivative_map\", \"map\": \"a\",\n\"channels\": \"xy\"} ]"), 3,
      "layers[0]", "unknown key \"channels\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, range, neutral, basis, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, range, "
+     "neutral, basis, "
      "scale, mask, opacity, blend"},
     {"height_without_a_map", in_document("\"layers\": [\n{\"type\": \"height_map\"} ]"), 3, "layers[0]",
      "lacks \"map\"", "expected \"map\": a file name"},
@@ -243,7 +260,8 @@ const Case wrong_layer[] = {
     {"height_taps_number", in_heights("\"taps\": 3"), 3, "layers[0].taps", "is 3",
      "expected one of: one, three, bicubic"},
     {"height_green", in_heights("\"green\": \"up\""), 3, "layers[0]", "unknown key \"green\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, channel, mode, height, units, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, channel, mode, "
+     "height, units, "
      "taps, basis, scale, mask, opacity, blend"},
     {"basis_of_a_physical_height", in_heights("\"basis\": \"derived\""), 3, "layers[0].basis",
      "does not apply to this mode", "leave it out, or give \"mode\": \"scale_free\""},
@@ -305,7 +323,7 @@ TEST(StackErrorMessage, is_one_line_that_names_file_line_key_and_remedy) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "dir/stack.json:6: layers[0].mask: unknown key \"chan?el\"; did you mean "
                                "\"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, "
-                               "channel");
+                               "tiling, hex_turn, channel");
   }
 }
 

@@ -18,13 +18,14 @@ struct StackText {
     text += fmt::format(form, std::forward<Values>(values)...) + "\n";
   }
   static std::string tiled(const Tiled& t) {
-    return fmt::format("tile {} {} rotate {} offset {} {} wrap {} filter {}", t.tile.x, t.tile.y,
-                       t.rotate_deg, t.offset.x, t.offset.y, static_cast<int>(t.wrap),
-                       static_cast<int>(t.filter));
+    std::string text = fmt::format("tile {} {} rotate {} offset {} {} wrap {} filter {}", t.tile.x, t.tile.y,
+                                   t.rotate_deg, t.offset.x, t.offset.y, static_cast<int>(t.wrap),
+                                   static_cast<int>(t.filter));
+    if (t.tiling == Tiling::hex) text += fmt::format(" hex turn {}", t.hex_turn_deg);
+    return text;
   }
   void codes(const BumpCodes& b) {
-    line("tile {} {} rotate {} offset {} {} wrap {} filter {}", b.tile.x, b.tile.y, b.rotate_deg, b.offset.x,
-         b.offset.y, static_cast<int>(b.wrap), static_cast<int>(b.filter));
+    line("{}", tiled(b));
     line("channels {} green {} range {} neutral {} height_channel {} height {}", static_cast<int>(b.channels),
          static_cast<int>(b.green), b.derivative.range, static_cast<int>(b.derivative.neutral),
          static_cast<int>(b.height_channel), b.height);

@@ -54,6 +54,8 @@ TEST(StackValues, smallest_normal_map_has_the_defaults) {
   EXPECT_EQ(layer.map.offset.y, 0);
   EXPECT_EQ(layer.map.wrap, Wrap::repeat);
   EXPECT_EQ(layer.map.filter, Filter::trilinear);
+  EXPECT_EQ(layer.map.tiling, Tiling::plain);
+  EXPECT_EQ(layer.map.hex_turn_deg, 180);
   EXPECT_EQ(layer.map.channels, Channels::automatic);
   EXPECT_EQ(layer.map.green, Green::up);
   EXPECT_EQ(layer.basis, Basis::mikktspace);
@@ -126,7 +128,7 @@ constexpr std::string_view every_key = R"({
     { "type": "resolve" },
     { "type": "object_normal_map", "map": "sub/b.exr", "uv": 1, "tile": [1, 2], "rotate": 1e1,
       "offset": [0, 1], "wrap": "clamp", "filter": "bilinear", "green": "down",
-      "space": "world", "scale": 2, "opacity": 0, "blend": "mix", "mask": { "map": "q.png" } }
+      "space": "world", "scale": 2, "opacity": 0, "blend": "mix", "mask": { "map": "q.png", "tiling": "hex", "hex_turn": 12.5 } }
   ],
   "materials": { "skin": [ { "type": "resolve" } ], "Cloth.001": [], "\u00e9toile": [] },
   "camera": { "yaw": -200, "pitch": -90, "zoom": 0.5, "fov": 179.5 },
@@ -148,6 +150,7 @@ resolve
 object_normal_map space 1
 scale 2 opacity 0 blend 1
 q.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2
+hex turn 12.5
 channel 0
 sub/b.exr uv 1 tile 1 2 rotate 10 offset 0 1 wrap 2 filter 1
 green 1
