@@ -43,7 +43,7 @@ template <LaneScalar T>
     return derivative(bumps, of_plane(planes.st, axis), of_plane(planes.dst_dx, axis),
                       of_plane(planes.dst_dy, axis));
   });
-  return from_gradient_in_space(point, layer.world,
+  return from_displacement_in_space(point, layer.world,
                                 triplanar_gradient(weights, d[0], d[1], d[2], layer.convention));
 }
 

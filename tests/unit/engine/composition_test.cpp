@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace surfgrad::engine {
 namespace {
@@ -41,9 +42,9 @@ TEST_F(Composing, AddLayersCommute) {
   surfgrad::test::Worst worst("normals of permuted layers");
   const Program straight = lab.compile(kinds);
   std::vector<stack::Layer> layers = kinds;
-  for (int shuffle = 0; shuffle < 24; ++shuffle) {
-    for (std::size_t i = layers.size(); i > 1; --i)
-      std::swap(layers[i - 1], layers[static_cast<std::size_t>(random.integer(static_cast<int>(i)))]);
+  for (int trial = 0; trial < 30; ++trial) {
+    for (std::size_t i = layers.size() - 1; i > 0; --i)
+      std::swap(layers[i], layers[static_cast<std::size_t>(random.integer(static_cast<int>(i) + 1))]);
     const Program permuted = lab.compile(layers);
     for (long k = 0; k < 20; ++k) {
       const auto f = test::leaning_fragment(random);
