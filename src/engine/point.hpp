@@ -80,8 +80,7 @@ template <Scalar T>
 /// bump follows the object's transform to first order: the object's normal N becomes M N, of which only the
 /// part along n counts as height. Linear in the gradient, so that gradients may be summed before.
 ///
-/// degenerate  a transform without inverse gives zero for gradients in object space; a result beyond the
-///             scalar's range saturates
+/// degenerate  a transform without inverse gives zero for gradients in object space
 template <Scalar T>
 [[nodiscard]] vec3<T> from_gradient_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
   return from_volume_gradient(point.frame.normal, gradient_in_world(point, world, gradient));

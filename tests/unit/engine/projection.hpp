@@ -86,9 +86,17 @@ vec3d blinn_normal(const Surface& surface, const surfgrad::test::SurfacePoint& p
   return dot(cross(p.dp_du, p.dp_dv), p.normal) < 0 ? -n : n;
 }
 
-/// The normal of a surface bumped in object space, under the object's transform (Golubev, equation 33).
+/// The normal of a surface bumped in object space, under the object's transform (Golubev, equation 33);
+/// where it would lie below the surface, mirrored there (listing 7).
 inline vec3d transformed_normal(const mat3<double>& m, vec3d normal, vec3d surfgrad) {
-  return normalize_or_zero(transform_normal(m, normal - surfgrad));
+  const vec3d base = normalize_or_zero(transform_normal(m, normal));
+  return normalize_or_zero(base - from_perturbed_normal(base, transform_normal(m, normal - surfgrad)));
+}
+
+/// A transform that turns and scales by up to 2 along any directions.
+inline mat3<double> random_stretch(Random& random) {
+  const vec3d s = random.vector3(0.5, 2);
+  return random.rotation() * (mat3<double>{{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}} * random.rotation());
 }
 
 } // namespace surfgrad::engine::test

@@ -2,9 +2,12 @@
 // whole normals, transforms, passes.
 
 #include "projection.hpp"
+#include "simd/emulated_lanes.hpp"
 #include "support/worst.hpp"
 
 #include <gtest/gtest.h>
+
+#include <bit>
 
 namespace surfgrad::engine {
 namespace {
@@ -252,7 +255,7 @@ TEST_F(Triplanars, WithGreenDownNegateYOfWholeNormals) {
   EXPECT_LT(max_abs(composed(lab.compile({layer}), f).normal - normalize_or_zero(vec3d{0, -0.5, 1})), stored);
 }
 
-TEST_F(Triplanars, TurnAndMirrorWithTheObject) {
+TEST_F(Triplanars, InObjectSpaceFollowTheObject) {
   Worst worst("normal of the moved object");
   lab.add("x", surfgrad::test::random_normal_map(random, 16, 16, 0.5));
   lab.add("y", surfgrad::test::random_normal_map(random, 16, 16, 0.5));
@@ -261,7 +264,7 @@ TEST_F(Triplanars, TurnAndMirrorWithTheObject) {
                              stack::TriplanarContent::object_normal}) {
     stack::TriplanarLayer layer = triplanar_layer({"x", "y", "z"}, content);
     if (content == stack::TriplanarContent::height) layer.map.height = 0.02;
-    layer.common.scale = 0.2;
+    if (content == stack::TriplanarContent::object_normal) layer.common.scale = 0.2;
     layer.map.filter = stack::Filter::bilinear;
     const Program program = lab.compile({layer});
     for (long k = 0; k < 300; ++k) {
@@ -270,10 +273,14 @@ TEST_F(Triplanars, TurnAndMirrorWithTheObject) {
       const vec3d g = composed(program, f).surfgrad;
       const double size = random.magnitude(1e-6, 1e6);
       const mat3<double> r = random.rotation();
-      const mat3<double> m{random.sign() * size * r.x, random.sign() * size * r.y, size * r.z};
-      // A map's direction may lie nearly in the surface: relative to the gradient's size.
-      worst.add(composed(program, test::moved(f, m), BackFaces::same, m).normal,
-                test::transformed_normal(m, f.normal, g), 2 * exact * (1 + dot(g, g)), k);
+      const mat3<double> similar{random.sign() * size * r.x, random.sign() * size * r.y, size * r.z};
+      // Whole normals blend in world space, where layers do: a stretch weighs them differently there.
+      const bool stretches = k % 2 == 0 && content != stack::TriplanarContent::object_normal;
+      const mat3<double> m = stretches ? test::random_stretch(random) : similar;
+      const auto got = composed(program, test::moved(f, m), BackFaces::same, m);
+      // A direction may lie nearly in the surface: relative to the gradient's size.
+      worst.add(got.normal, test::transformed_normal(m, f.normal, g),
+                exact * (1 + dot(g, g) + dot(got.surfgrad, got.surfgrad)), k);
     }
   }
 }
@@ -328,6 +335,32 @@ TEST_F(Triplanars, OnBackFacesAreTheSameSurfaceGradient) {
       worst.add(composed(program, f, BackFaces::mirror).normal, normalize_or_zero(-n - g), bound, k);
       worst.add(composed(program, f, BackFaces::flip).normal, normalize_or_zero(g - n), bound, k);
     }
+  }
+}
+
+TEST_F(Triplanars, DoNotReachLanesWherePlanesHaveNoWeight) {
+  using simd::EmulatedFloat;
+  add_constant("x", {1, 0.5, 0.5}); // the normal of the facet: nothing, of either sign
+  lab.add("other", surfgrad::test::random_normal_map(random, 16, 16, 0.5));
+  for (const auto content : {stack::TriplanarContent::normal, stack::TriplanarContent::object_normal}) {
+    const Program program = lab.compile({triplanar_layer({"x", "other", "other"}, content)});
+    const auto& layer = std::get<Triplanar>(program.layers[0]);
+    const Placement placement = test::placed(test::identity);
+    Point<EmulatedFloat> pack{{}, {}, true, EmulatedFloat(1), placement};
+    Point<float> alone{{}, {}, true, 1, placement};
+    pack.frame.normal.x = EmulatedFloat(1);
+    alone.frame.normal.x = 1;
+    for (int i = 1; i < simd::emulated_width; ++i) { // all lanes but the first see the other planes
+      pack.frame.normal.x.lane[i] = 0;
+      (i % 2 == 0 ? pack.frame.normal.y : pack.frame.normal.z).lane[i] = i < 4 ? 1.0F : -1.0F;
+    }
+    simd::EmulatedMask flags{};
+    bool flag = false;
+    const vec3<EmulatedFloat> got = surface_gradient(layer, pack, flags);
+    const vec3<float> expected = surface_gradient(layer, alone, flag);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(got.x.lane[0]), std::bit_cast<std::uint32_t>(expected.x));
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(got.y.lane[0]), std::bit_cast<std::uint32_t>(expected.y));
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(got.z.lane[0]), std::bit_cast<std::uint32_t>(expected.z));
   }
 }
 
