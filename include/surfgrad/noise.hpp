@@ -171,13 +171,16 @@ template <LaneScalar T>
 /// k           uniform, normally >= 1. For smaller k the gradient grows without bound as the value
 ///             falls to 0.
 /// returns     value^k and k * value^(k-1) * gradient
-/// degenerate  where the value is not positive: zero, with zero gradient
+/// degenerate  where the value is not positive: zero, with zero gradient. Results beyond the scalar's range
+///             saturate.
 /// error       that of pow for k - 1, and 2 eps, relative
 /// source      Mikkelsen 2019, section 4 (after Gritz)
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr Noise<T> power(Noise<T> noise, value_t<T> k) {
   const T less = pow(noise.value, T(k - value_t<T>(1)));
-  return {noise.value * less, (T(k) * less) * noise.gradient};
+  // The slope saturates before it meets a zero component, which infinity would turn into NaN.
+  const T slope = saturated(T(k) * less);
+  return {saturated(noise.value * less), saturated(slope * noise.gradient)};
 }
 
 namespace detail {

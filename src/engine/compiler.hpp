@@ -2,6 +2,7 @@
 
 #include "engine/bump_map.hpp"
 #include "engine/layers/influence.hpp"
+#include "engine/layers/noise.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
 #include "engine/layers/resolve.hpp"
@@ -35,6 +36,7 @@ class Compiler {
 // One for each kind, beside its kernel in layers/.
 [[nodiscard]] NormalMap compiled(const stack::NormalMapLayer& layer, const Compiler& compiler);
 [[nodiscard]] ObjectNormalMap compiled(const stack::ObjectNormalMapLayer& layer, const Compiler& compiler);
+[[nodiscard]] VolumeNoise compiled(const stack::NoiseLayer& layer, const Compiler& compiler);
 [[nodiscard]] Resolve compiled(const stack::ResolveLayer& layer, const Compiler& compiler);
 
 } // namespace surfgrad::engine

@@ -65,19 +65,25 @@ template <Scalar T>
   return normalize_or_zero(transpose(in_lanes<T>(point.placement.linear)) * point.frame.normal);
 }
 
+/// A volume gradient in object space or world space brought to world space, so scaled that its part along
+/// the surface is the surface gradient of from_gradient_in_space.
+template <Scalar T>
+[[nodiscard]] vec3<T> gradient_in_world(const Point<T>& point, bool world, vec3<T> gradient) {
+  if (world) return gradient;
+  // transform_normal(M, N - G) for N = M^T n / |M^T n|, scaled so that its part along n is n itself.
+  const T stretch = length(transpose(in_lanes<T>(point.placement.linear)) * point.frame.normal);
+  return saturated(stretch * (transpose(in_lanes<T>(point.placement.inverse_linear)) * gradient));
+}
+
 /// Surface gradient in world space of a volume gradient in object space or world space. An object-space
 /// bump follows the object: it is displaced there, then transformed (Golubev, equation 33). Linear in
-/// the gradient.
+/// the gradient, and exact where the transform keeps angles; under others exact to first order in the
+/// gradient: the object's normal N becomes M N, of which only the part along n counts as height.
 ///
 /// degenerate  a transform without inverse gives zero for gradients in object space
 template <Scalar T>
 [[nodiscard]] vec3<T> from_gradient_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
-  const vec3<T> n = point.frame.normal;
-  if (world) return from_volume_gradient(n, gradient);
-  // transform_normal(M, N - G) for N = M^T n / |M^T n|, scaled so that its part along n is n itself.
-  const T stretch = length(transpose(in_lanes<T>(point.placement.linear)) * n);
-  const vec3<T> g = transpose(in_lanes<T>(point.placement.inverse_linear)) * gradient;
-  return from_volume_gradient(n, stretch * g);
+  return from_volume_gradient(point.frame.normal, gradient_in_world(point, world, gradient));
 }
 
 } // namespace surfgrad::engine

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/layers/noise.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
 #include "engine/layers/resolve.hpp"
@@ -14,7 +15,7 @@ namespace surfgrad::engine {
 
 /// The layers of one material, ready to run: maps loaded, numbers folded.
 struct Program {
-  std::vector<std::variant<NormalMap, ObjectNormalMap, Resolve>> layers;
+  std::vector<std::variant<NormalMap, ObjectNormalMap, VolumeNoise, Resolve>> layers;
 };
 
 /// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the

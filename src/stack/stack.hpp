@@ -3,6 +3,7 @@
 /// The stack: a JSON document of bump layers, read into structs whose every value is in its range.
 /// docs/stack-format.md describes the document, docs/stack.schema.json is its schema.
 
+#include "stack/layers/noise.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
 #include "stack/layers/resolve.hpp"
@@ -15,7 +16,7 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer = std::variant<NormalMapLayer, ObjectNormalMapLayer, ResolveLayer>;
+using Layer = std::variant<NormalMapLayer, ObjectNormalMapLayer, NoiseLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

@@ -2,6 +2,8 @@
 
 /// The choices a stack document offers by name. The same words serve the command line.
 
+#include <surfgrad/worley.hpp>
+
 #include <array>
 #include <string_view>
 
@@ -31,6 +33,12 @@ enum class Space { object, world };
 /// negated; flip: that, and the bumps negated too; cull: nothing.
 enum class BackFaces { same, mirror, flip, cull };
 enum class MaskChannel { r, g, b, a };
+/// Functions of space: three noises, and three ways to sum octaves of one.
+enum class NoiseKind { perlin, simplex, worley, fractal_sum, turbulence, ridged };
+enum class NoiseBasis { perlin, simplex, worley };
+/// surface_gradient: the gradient's part along the surface; perlin1985: the whole gradient added to the
+/// normal, as Perlin did in 1985, to compare with.
+enum class NoiseMethod { surface_gradient, perlin1985 };
 
 template <class E>
 struct Word {
@@ -80,5 +88,22 @@ inline constexpr auto words_of<BackFaces> = std::to_array<Word<BackFaces>>({{"sa
 template <>
 inline constexpr auto words_of<MaskChannel> = std::to_array<Word<MaskChannel>>(
     {{"r", MaskChannel::r}, {"g", MaskChannel::g}, {"b", MaskChannel::b}, {"a", MaskChannel::a}});
+template <>
+inline constexpr auto
+    words_of<NoiseKind> = std::to_array<Word<NoiseKind>>({{"perlin", NoiseKind::perlin},
+                                                          {"simplex", NoiseKind::simplex},
+                                                          {"worley", NoiseKind::worley},
+                                                          {"fractal_sum", NoiseKind::fractal_sum},
+                                                          {"turbulence", NoiseKind::turbulence},
+                                                          {"ridged", NoiseKind::ridged}});
+template <>
+inline constexpr auto words_of<NoiseBasis> = std::to_array<Word<NoiseBasis>>(
+    {{"perlin", NoiseBasis::perlin}, {"simplex", NoiseBasis::simplex}, {"worley", NoiseBasis::worley}});
+template <>
+inline constexpr auto words_of<NoiseMethod> = std::to_array<Word<NoiseMethod>>(
+    {{"surface_gradient", NoiseMethod::surface_gradient}, {"perlin1985", NoiseMethod::perlin1985}});
+template <>
+inline constexpr auto words_of<WorleyKind> =
+    std::to_array<Word<WorleyKind>>({{"f1", WorleyKind::f1}, {"f2_minus_f1", WorleyKind::f2_minus_f1}});
 
 } // namespace surfgrad::stack

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace surfgrad::engine {
 namespace {
@@ -40,7 +41,8 @@ struct Composing : ::testing::Test {
 TEST_F(Composing, AddLayersCommute) {
   surfgrad::test::Worst worst("normals of permuted layers");
   const Program straight = lab.compile(kinds);
-  std::vector<int> order{0, 1, 2, 3};
+  std::vector<int> order(kinds.size());
+  std::iota(order.begin(), order.end(), 0);
   while (std::next_permutation(order.begin(), order.end())) {
     std::vector<stack::Layer> layers;
     for (const int i : order) layers.push_back(kinds[static_cast<std::size_t>(i)]);

@@ -94,8 +94,8 @@ TEST_F(Degenerate, NoNumberOfADocumentMakesNaN) {
         stack::Layer layer = kind;
         std::visit(
             [&](auto& l) {
-              if constexpr (!std::is_same_v<std::decay_t<decltype(l)>, stack::ResolveLayer>) {
-                l.common.scale = a;
+              if constexpr (requires { l.common.scale; }) l.common.scale = a;
+              if constexpr (requires { l.map.tile; }) {
                 l.map.tile = {b, a};
                 l.map.offset = {a, b};
                 l.map.rotate_deg = b;

@@ -120,7 +120,12 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
   c.common.opacity = 0.2;
   stack::ObjectNormalMapLayer d = object_layer("d", stack::Space::world);
   d.common.scale = 0.1;
-  return {normal_layer("a"), b, c, d};
+  stack::NoiseLayer e;
+  e.noise.function = stack::NoiseKind::turbulence;
+  e.noise.frequency = 3;
+  e.noise.power = 2;
+  e.common.scale = 0.2;
+  return {normal_layer("a"), b, c, d, e};
 }
 
 } // namespace surfgrad::engine::test

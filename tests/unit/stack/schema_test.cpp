@@ -153,7 +153,7 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     if (object.name == "lights") full["lights"].update(defaults);
     if (object.name == "sun") full["lights"]["sun"] = defaults;
     json layer = {{"type", object.is_layer ? std::string(object.name) : "normal_map"}};
-    if (object.name != "resolve") layer["map"] = "n.png";
+    if (object.name != "resolve" && object.name != "noise") layer["map"] = "n.png";
     json full_layer = layer;
     if (object.name == "mask") {
       layer["mask"] = {{"map", "k.png"}};
@@ -167,8 +167,8 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     plain["layers"].push_back(layer);
     full["layers"].push_back(full_layer);
   }
-  // 7 of a mask, 11 of each map layer, 4 of the camera, 3 of the lights.
-  EXPECT_EQ(written, 36);
+  // 7 of a mask, 11 of each map layer, 14 of noise, 4 of the camera, 3 of the lights.
+  EXPECT_EQ(written, 50);
   EXPECT_EQ(text_of(parse_stack(full.dump(), "full")), text_of(parse_stack(plain.dump(), "plain")));
 }
 
@@ -182,7 +182,7 @@ TEST(StackDocumentation, examples_parse) {
     EXPECT_NO_THROW(static_cast<void>(parse_stack(example, "stack-format.md"))) << example;
     ++examples;
   }
-  EXPECT_EQ(examples, 3);
+  EXPECT_EQ(examples, 4);
 }
 
 TEST(StackDocumentation, names_every_key_and_word) {

@@ -42,6 +42,14 @@ struct StackText {
     common(l.common);
     map(l.map);
   }
+  void operator()(const NoiseLayer& l) {
+    const NoiseFunction& n = l.noise;
+    line("noise {} {} {} octaves {} {} {} power {} frequency {} offset {} {} {}",
+         static_cast<int>(n.function), static_cast<int>(n.basis), static_cast<int>(n.worley), n.octaves,
+         n.lacunarity, n.gain, n.power, n.frequency, n.offset.x, n.offset.y, n.offset.z);
+    line("space {} method {}", static_cast<int>(l.space), static_cast<int>(l.method));
+    common(l.common);
+  }
   void operator()(const ResolveLayer&) { line("resolve"); }
   void layers(const std::vector<Layer>& list) {
     for (const Layer& layer : list) std::visit(*this, layer);
