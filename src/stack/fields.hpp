@@ -40,6 +40,8 @@ struct Value {
 [[nodiscard]] FileName read_file(const Value& value, const Shape& shape);
 [[nodiscard]] std::vector<double> read_vector(const Value& value, const Shape& shape);
 
+[[nodiscard]] std::vector<double> read_numbers(const Value& value, const Shape& shape);
+
 /// The word of `words` that a mistyped one most resembles; empty if none is near.
 [[nodiscard]] std::string_view nearest(std::string_view word, const std::vector<std::string_view>& words);
 
@@ -140,6 +142,11 @@ class Fields {
   template <class Part>
   Fields&& part(Part T::*member) && {
     return std::move(*this).template include<Part>([=](T& t) -> Part& { return t.*member; });
+  }
+  /// Leaves out a key of a base class or a member that means nothing here.
+  Fields&& without(std::string_view key) && {
+    std::erase_if(fields_, [=](const Field<T>& field) { return field.format.key == key; });
+    return std::move(*this);
   }
   /// Runs after all keys, with the object's own value: for lines, and for rules over several keys.
   Fields&& finally(std::function<void(T&, const Value&)> step) && {

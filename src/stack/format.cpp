@@ -34,6 +34,8 @@ std::string expectation(const Shape& shape) {
     return "a file name";
   case Shape::Kind::vector:
     return fmt::format("an array of {} numbers", shape.components);
+  case Shape::Kind::numbers:
+    return "an array of numbers";
   case Shape::Kind::tile:
     return "a number or an array of 2 numbers, none of them zero";
   case Shape::Kind::object:

@@ -28,6 +28,7 @@ struct Shape {
     text,      ///< any string
     file,      ///< a file name
     vector,    ///< an array of `components` numbers
+    numbers,   ///< an array of any number of numbers
     tile,      ///< one number or an array of two, none of them zero
     object,    ///< an object of the format named `object`
     layers,    ///< an array of layers

@@ -84,6 +84,11 @@ const Fields<Stack>& Stack::fields() {
                  static_cast<void>(read_text(value, shape));
                })
           .file("mesh", &Stack::mesh)
+          .add("morph", {.kind = Shape::Kind::numbers},
+               [](Stack& stack, const Value& value, const Shape& shape) {
+                 stack.morph = {read_numbers(value, shape), value.node.line};
+               })
+          .object("displace", &Stack::displace)
           .word("back_faces", &Stack::back_faces)
           .add("layers", {.kind = Shape::Kind::layers},
                [](Stack& stack, const Value& value, const Shape&) {
@@ -98,10 +103,13 @@ const Fields<Stack>& Stack::fields() {
 }
 
 std::vector<ObjectFormat> document_format() {
-  std::vector<ObjectFormat> objects{
-      Stack::fields().format(Stack::format_name), Mask::fields().format(Mask::format_name),
-      Camera::fields().format(Camera::format_name), Lights::fields().format(Lights::format_name),
-      Sun::fields().format(Sun::format_name)};
+  std::vector<ObjectFormat> objects{Stack::fields().format(Stack::format_name),
+                                    Mask::fields().format(Mask::format_name),
+                                    Displace::fields().format(Displace::format_name),
+                                    DisplacementMap::fields().format(DisplacementMap::format_name),
+                                    Camera::fields().format(Camera::format_name),
+                                    Lights::fields().format(Lights::format_name),
+                                    Sun::fields().format(Sun::format_name)};
   for (const Kind& kind : kinds()) objects.push_back(kind.format());
   return objects;
 }

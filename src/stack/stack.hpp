@@ -3,6 +3,7 @@
 /// The stack: a JSON document of bump layers, read into structs whose every value is in its range.
 /// docs/stack-format.md describes the document, docs/stack.schema.json is its schema.
 
+#include "stack/displace.hpp"
 #include "stack/layers/noise.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
@@ -32,6 +33,8 @@ struct Stack {
 
   std::filesystem::path file{}; ///< the document, as it was named
   std::optional<FileName> mesh{};
+  MorphWeights morph{};
+  std::optional<Displace> displace{};
   std::optional<BackFaces> back_faces{}; ///< absent: as the mesh's material says
   bool has_layers = false;               ///< whether the document has `layers`, be it an empty list
   std::vector<Layer> layers{};           ///< for every material that `materials` does not name

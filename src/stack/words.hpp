@@ -40,6 +40,10 @@ enum class NoiseBasis { perlin, simplex, worley };
 /// normal, as Perlin did in 1985, to compare with.
 enum class NoiseMethod { surface_gradient, perlin1985 };
 
+/// Where a subdivision puts the vertex in the middle of an edge: halfway, or on a curve that leaves both
+/// ends perpendicular to their normals.
+enum class Edges { straight, curved };
+
 template <class E>
 struct Word {
   std::string_view text;
@@ -88,6 +92,9 @@ inline constexpr auto words_of<BackFaces> = std::to_array<Word<BackFaces>>({{"sa
 template <>
 inline constexpr auto words_of<MaskChannel> = std::to_array<Word<MaskChannel>>(
     {{"r", MaskChannel::r}, {"g", MaskChannel::g}, {"b", MaskChannel::b}, {"a", MaskChannel::a}});
+template <>
+inline constexpr auto words_of<Edges> = std::to_array<Word<Edges>>({{"straight", Edges::straight},
+                                                                    {"curved", Edges::curved}});
 template <>
 inline constexpr auto
     words_of<NoiseKind> = std::to_array<Word<NoiseKind>>({{"perlin", NoiseKind::perlin},
