@@ -176,6 +176,12 @@ std::vector<double> read_vector(const Value& value, const Shape& shape) {
   const auto* elements = std::get_if<std::vector<Node>>(&value.node.value);
   if (elements == nullptr || elements->size() != static_cast<std::size_t>(shape.components))
     value.reject(expectation(shape));
+  return read_numbers(value, shape);
+}
+
+std::vector<double> read_numbers(const Value& value, const Shape& shape) {
+  const auto* elements = std::get_if<std::vector<Node>>(&value.node.value);
+  if (elements == nullptr) value.reject(expectation(shape));
   std::vector<double> numbers;
   for (std::size_t i = 0; i < elements->size(); ++i)
     numbers.push_back(read_number(value.element(i), {.kind = Shape::Kind::number}));

@@ -42,6 +42,8 @@ struct Value {
 [[nodiscard]] std::vector<FileName> read_files(const Value& value, const Shape& shape); ///< one or all
 [[nodiscard]] std::vector<double> read_vector(const Value& value, const Shape& shape);
 
+[[nodiscard]] std::vector<double> read_numbers(const Value& value, const Shape& shape);
+
 /// The word of `words` that a mistyped one most resembles; empty if none is near.
 [[nodiscard]] std::string_view nearest(std::string_view word, const std::vector<std::string_view>& words);
 
@@ -162,6 +164,11 @@ class Fields {
   template <class Part, class Access>
   Fields&& part(Access access) && {
     return std::move(*this).template include<Part>(access);
+  }
+  /// Leaves out a key of a base class or a member that means nothing here.
+  Fields&& without(std::string_view key) && {
+    std::erase_if(fields_, [=](const Field<T>& field) { return field.format.key == key; });
+    return std::move(*this);
   }
   /// Runs after all keys, with the object's own value: for lines, and for rules over several keys.
   Fields&& finally(std::function<void(T&, const Value&)> step) && {

@@ -38,6 +38,8 @@ std::string expectation(const Shape& shape) {
     return fmt::format("a file name or an array of {} file names", fmt::join(shape.counts, " or "));
   case Shape::Kind::vector:
     return fmt::format("an array of {} numbers", shape.components);
+  case Shape::Kind::numbers:
+    return "an array of numbers";
   case Shape::Kind::tile:
     return "a number or an array of 2 numbers, none of them zero";
   case Shape::Kind::size:

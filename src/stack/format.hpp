@@ -30,6 +30,7 @@ struct Shape {
     file,      ///< a file name
     files,     ///< a file name, or an array of as many as one of `counts`
     vector,    ///< an array of `components` numbers
+    numbers,   ///< an array of any number of numbers
     tile,      ///< one number or an array of two, none of them zero
     size,      ///< one number or an array of three, each greater than 0
     object,    ///< an object of the format named `object`

@@ -99,6 +99,11 @@ const Fields<Stack>& Stack::fields() {
                  static_cast<void>(read_text(value, shape));
                })
           .file("mesh", &Stack::mesh)
+          .add("morph", {.kind = Shape::Kind::numbers},
+               [](Stack& stack, const Value& value, const Shape& shape) {
+                 stack.morph = {read_numbers(value, shape), value.node.line};
+               })
+          .object("displace", &Stack::displace)
           .word("back_faces", &Stack::back_faces)
           .add("layers", {.kind = Shape::Kind::layers},
                [](Stack& stack, const Value& value, const Shape&) {
@@ -115,6 +120,8 @@ const Fields<Stack>& Stack::fields() {
 std::vector<ObjectFormat> document_format() {
   std::vector<ObjectFormat> objects{Stack::fields().format(Stack::format_name),
                                     Mask::fields().format(Mask::format_name),
+                                    Displace::fields().format(Displace::format_name),
+                                    DisplacementMap::fields().format(DisplacementMap::format_name),
                                     Convention::fields().format(Convention::format_name),
                                     Camera::fields().format(Camera::format_name),
                                     Lights::fields().format(Lights::format_name),

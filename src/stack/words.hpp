@@ -72,6 +72,10 @@ enum class DecalBlend { add, mix, replace };
 /// without it, as in a box.
 enum class ConeGradient { exact, scale_free };
 
+/// Where a subdivision puts the vertex in the middle of an edge: halfway, or on a curve that leaves both
+/// ends perpendicular to their normals.
+enum class Edges { straight, curved };
+
 template <class E>
 struct Word {
   std::string_view text;
@@ -151,6 +155,9 @@ template <>
 inline constexpr auto words_of<MaskChannel> = std::to_array<Word<MaskChannel>>(
     {{"r", MaskChannel::r}, {"g", MaskChannel::g}, {"b", MaskChannel::b}, {"a", MaskChannel::a}});
 template <>
+inline constexpr auto words_of<Edges> = std::to_array<Word<Edges>>({{"straight", Edges::straight},
+                                                                    {"curved", Edges::curved}});
+template <>
 inline constexpr auto
     words_of<NoiseKind> = std::to_array<Word<NoiseKind>>({{"perlin", NoiseKind::perlin},
                                                           {"simplex", NoiseKind::simplex},
@@ -179,11 +186,11 @@ inline constexpr auto words_of<TextureOrigin> = std::to_array<Word<TextureOrigin
 template <>
 inline constexpr auto words_of<TriplanarPlanes> = std::to_array<Word<TriplanarPlanes>>(
     {{"mikkelsen", TriplanarPlanes::mikkelsen}, {"golubev", TriplanarPlanes::golubev}});
-    words_of<DecalShape> = std::to_array<Word<DecalShape>>({{"box", DecalShape::box},
-                                                            {"cone", DecalShape::cone},
-                                                            {"sphere", DecalShape::sphere},
-                                                            {"capsule", DecalShape::capsule},
-                                                            {"wedge", DecalShape::wedge}});
+words_of<DecalShape> = std::to_array<Word<DecalShape>>({{"box", DecalShape::box},
+                                                        {"cone", DecalShape::cone},
+                                                        {"sphere", DecalShape::sphere},
+                                                        {"capsule", DecalShape::capsule},
+                                                        {"wedge", DecalShape::wedge}});
 template <>
 inline constexpr auto words_of<DecalBlend> = std::to_array<Word<DecalBlend>>(
     {{"add", DecalBlend::add}, {"mix", DecalBlend::mix}, {"replace", DecalBlend::replace}});
