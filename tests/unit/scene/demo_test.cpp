@@ -1,6 +1,7 @@
 // The built-in scene: the same every time, and sound under the jobs.
 
 #include "scene/scene.hpp"
+#include "stack/uses.hpp"
 
 #include "bake/bake.hpp"
 #include "stack/uses.hpp"
