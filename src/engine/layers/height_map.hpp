@@ -114,7 +114,9 @@ template <LaneScalar T>
   const bool world = layer.kind == HeightMap::Kind::scene_units;
   const SpacePoint<T> space = in_space(point, world);
   const vec3<T> normal = normal_in_space(point, world);
-  const mask_t<T> collapsed = is_collapsed(uv.dst_dx, uv.dst_dy) | is_collapsed(space.dp_dx, space.dp_dy);
+  const mask_t<T> no_texture = is_collapsed(uv.dst_dx, uv.dst_dy);
+  const mask_t<T> no_surface = is_collapsed(space.dp_dx, space.dp_dy);
+  const mask_t<T> collapsed = no_texture | no_surface;
   degenerate = degenerate | collapsed;
   const vec2<T> dh = saturated(constant<T>(layer.height) * height_per_pixel(layer, point.fragment));
   vec3<T> g = from_parametric_derivative(normal, space.dp_dx, space.dp_dy, dh);

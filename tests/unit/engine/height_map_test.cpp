@@ -133,13 +133,19 @@ TEST_F(HeightMaps, AreDisplacedInTheSceneOrInTheObject) {
   lab.add("heights", image);
   const double height = 0.03;
   const mat3<double> turn = random.rotation();
-  const std::pair<const char*, mat3<double>> transforms[] = {
+  struct Transform {
+    const char* name;
+    mat3<double> m;
+  };
+  const Transform transforms[] = {
       {"turned", turn},
       {"three times as large", turn * test::scaling({3, 3, 3})},
       {"non-uniform", turn * test::scaling({0.5, 2, 1}) * random.rotation()},
       {"mirrored", turn * test::scaling({1, -1, 1})},
       {"non-uniform and mirrored", test::scaling({-0.7, 1.5, 1}) * random.rotation()}};
-  for (const auto& [name, m] : transforms) {
+  for (const Transform& transform : transforms) {
+    const char* name = transform.name;
+    const mat3<double>& m = transform.m;
     surfgrad::test::Worst scene(std::string("units of the scene, ") + name);
     surfgrad::test::Worst object(std::string("units of the object, ") + name);
     surfgrad::test::Worst definition(std::string("transform_normal, ") + name);
