@@ -48,6 +48,10 @@ std::string in_heights(const std::string& keys) {
   return in_document("\"layers\": [ {\"type\": \"height_map\", \"map\": \"h\",\n" + keys + "} ]");
 }
 
+std::string in_parallax(const std::string& keys) {
+  return in_document("\"layers\": [ {\"type\": \"parallax\", \"map\": \"h\",\n" + keys + "} ]");
+}
+
 constexpr const char* layer_keys =
     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, "
     "channels, basis, scale, mask, opacity, blend";
@@ -123,13 +127,15 @@ const Case wrong_document[] = {
     {"layer_not_an_object", in_document("\"layers\": [\n\"normal_map\" ]"), 3, "layers[0]", "is a string",
      "expected an object"},
     {"no_layer_type", in_document("\"layers\": [ {\"map\": \"a\"} ]"), 2, "layers[0]", "lacks \"type\"",
-     "expected \"type\": one of: normal_map, derivative_map, height_map, object_normal_map, resolve"},
+     "expected \"type\": one of: normal_map, derivative_map, height_map, object_normal_map, parallax, "
+     "resolve"},
     {"unknown_layer_type", in_document("\"layers\": [ {\n\"type\": \"normalmap\"} ]"), 3, "layers[0].type",
      "is \"normalmap\"",
      "did you mean \"normal_map\"? expected one of: normal_map, derivative_map, height_map, "
-     "object_normal_map, resolve"},
+     "object_normal_map, parallax, resolve"},
     {"layer_type_number", in_document("\"layers\": [ {\"type\": 3} ]"), 2, "layers[0].type", "is 3",
-     "expected one of: normal_map, derivative_map, height_map, object_normal_map, resolve"},
+     "expected one of: normal_map, derivative_map, height_map, object_normal_map, parallax, "
+     "resolve"},
     {"materials_not_an_object", in_document("\"materials\": []"), 2, "materials", "is an array of 0",
      "expected an object"},
     {"material_not_an_array", in_document("\"materials\": {\n\"skin\": {} }"), 3, "materials.skin",
@@ -252,6 +258,28 @@ const Case wrong_layer[] = {
     {"taps_of_a_scale_free_height", in_heights("\"taps\": \"three\",\n\"mode\": \"scale_free\""), 3,
      "layers[0].taps", "does not apply to this mode",
      "leave it out, or give \"mode\": \"physical\" or \"taps\": \"bicubic\""},
+    {"parallax_after_another_layer", in_layer("\"uv\": 0 },\n{ \"type\": \"parallax\", \"map\": \"h\""), 6,
+     "layers[1]", "\"parallax\" follows another layer in its pass",
+     "put it first in the list, or a layer { \"type\": \"resolve\" } right before it"},
+    {"parallax_after_parallax_in_a_material",
+     in_document("\"materials\": { \"skin\": [\n{ \"type\": \"parallax\", \"map\": \"h\" },\n"
+                 "{ \"type\": \"parallax\", \"map\": \"h\" } ] }"),
+     4, "materials.skin[1]", "\"parallax\" follows another layer in its pass",
+     "put it first in the list, or a layer { \"type\": \"resolve\" } right before it"},
+    {"parallax_height_zero", in_parallax("\"height\": 0"), 3, "layers[0].height", "is 0",
+     "expected a number greater than 0"},
+    {"parallax_level", in_parallax("\"level\": 1.5"), 3, "layers[0].level", "is 1.5",
+     "expected a number from 0 to 1"},
+    {"parallax_method_word", in_parallax("\"method\": \"occlusions\""), 3, "layers[0].method",
+     "is \"occlusions\"", "did you mean \"occlusion\"? expected one of: offset, occlusion"},
+    {"parallax_truth_as_a_number", in_parallax("\"self_shadow\": 1"), 3, "layers[0].self_shadow", "is 1",
+     "expected true or false"},
+    {"parallax_truth_as_a_word", in_parallax("\"curvature\": \"yes\""), 3, "layers[0].curvature",
+     "is a string", "expected true or false"},
+    {"parallax_limit_of_occlusion", in_parallax("\"limit_offset\": true"), 3, "layers[0].limit_offset",
+     "does not apply to this method", "leave it out, or give \"method\": \"offset\""},
+    {"parallax_nearest", in_parallax("\"filter\": \"nearest\""), 3, "layers[0].filter",
+     "does not apply to heights that are seen from the side", "expected one of: bilinear, trilinear"},
     {"resolve_with_a_scale", in_document("\"layers\": [ {\"type\": \"resolve\",\n\"scale\": 1} ]"), 3,
      "layers[0]", "unknown key \"scale\"", "expected one of: type"},
 };

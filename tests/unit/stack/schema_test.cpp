@@ -68,6 +68,8 @@ json expected_schema(const Shape& shape) {
     return range_schema("number", shape.range);
   case Shape::Kind::integer:
     return range_schema("integer", shape.range);
+  case Shape::Kind::truth:
+    return {{"type", "boolean"}};
   case Shape::Kind::word:
     return {{"enum", shape.words}};
   case Shape::Kind::text:
@@ -164,11 +166,12 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     } else {
       continue;
     }
+    for (json* document : {&plain, &full}) (*document)["layers"].push_back({{"type", "resolve"}});
     plain["layers"].push_back(layer);
     full["layers"].push_back(full_layer);
   }
-  // 7 of a mask, 11 to 14 of each map layer, 4 of the camera, 3 of the lights.
-  EXPECT_EQ(written, 63);
+  // 7 of a mask, 11 to 19 of each map layer, 4 of the camera, 3 of the lights.
+  EXPECT_EQ(written, 82);
   EXPECT_EQ(text_of(parse_stack(full.dump(), "full")), text_of(parse_stack(plain.dump(), "plain")));
 }
 
