@@ -9,10 +9,11 @@ namespace surfgrad::engine {
 /// What the layers of a material make of one fragment.
 template <class T>
 struct Composition {
-  vec3<T> base_normal; ///< unit; negated on back faces in modes mirror and flip
+  vec3<T> base_normal; ///< the mesh's: unit; negated on back faces in modes mirror and flip
   vec3<T> normal;      ///< the composed normal, unit
   /// Surface gradient that leads from base_normal to normal in one step: the sum of a single pass (less
-  /// what interpolated tangents lend it along the normal), the equivalent of several.
+  /// what interpolated tangents lend it along the normal), the equivalent of several. After a parallax that
+  /// is the turn from the mesh under the fragment to the surface seen through it.
   vec3<T> surfgrad;
   T sunlight;           ///< share of the sun that reaches the point, in [0, 1]: parallax casts shadows
   mask_t<T> degenerate; ///< a normal or a frame that a layer needed did not exist

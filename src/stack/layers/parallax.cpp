@@ -5,11 +5,11 @@
 namespace surfgrad::stack {
 namespace {
 
-/// A key that says nothing about this method is a slip.
+/// What says nothing here is a slip.
 void check(const ParallaxLayer& layer, const Value& value) {
-  const Member* limit = value.find("limit_offset");
-  if (limit != nullptr && layer.method != ParallaxMethod::offset)
-    value.member(*limit).fail("does not apply to this method", R"(leave it out, or give "method": "offset")");
+  if (layer.limit_offset && layer.method != ParallaxMethod::offset)
+    value.member(*value.find("limit_offset"))
+        .fail("does not apply to this method", R"(leave it out, or give "method": "offset")");
   if (layer.map.filter == Filter::nearest)
     value.member(*value.find("filter"))
         .fail("does not apply to heights that are seen from the side",

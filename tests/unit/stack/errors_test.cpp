@@ -50,6 +50,10 @@ std::string in_heights(const std::string& keys) {
   return in_document("\"layers\": [ {\"type\": \"height_map\", \"map\": \"h\",\n" + keys + "} ]");
 }
 
+std::string in_parallax(const std::string& keys) {
+  return in_document("\"layers\": [ {\"type\": \"parallax\", \"map\": \"h\",\n" + keys + "} ]");
+}
+
 constexpr const char* layer_keys =
     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, "
     "channels, basis, scale, mask, opacity, blend";
@@ -270,6 +274,28 @@ const Case wrong_layer[] = {
     {"taps_of_a_scale_free_height", in_heights("\"taps\": \"three\",\n\"mode\": \"scale_free\""), 3,
      "layers[0].taps", "does not apply to this mode",
      "leave it out, or give \"mode\": \"physical\" or \"taps\": \"bicubic\""},
+    {"parallax_after_another_layer", in_layer("\"uv\": 0 },\n{ \"type\": \"parallax\", \"map\": \"h\""), 6,
+     "layers[1]", "\"parallax\" follows another layer in its pass",
+     "put it first in the list, or a layer { \"type\": \"resolve\" } right before it"},
+    {"parallax_after_parallax_in_a_material",
+     in_document("\"materials\": { \"skin\": [\n{ \"type\": \"parallax\", \"map\": \"h\" },\n"
+                 "{ \"type\": \"parallax\", \"map\": \"h\" } ] }"),
+     4, "materials.skin[1]", "\"parallax\" follows another layer in its pass",
+     "put it first in the list, or a layer { \"type\": \"resolve\" } right before it"},
+    {"parallax_height_zero", in_parallax("\"height\": 0"), 3, "layers[0].height", "is 0",
+     "expected a number greater than 0"},
+    {"parallax_level", in_parallax("\"level\": 1.5"), 3, "layers[0].level", "is 1.5",
+     "expected a number from 0 to 1"},
+    {"parallax_method_word", in_parallax("\"method\": \"occlusions\""), 3, "layers[0].method",
+     "is \"occlusions\"", "did you mean \"occlusion\"? expected one of: offset, occlusion"},
+    {"parallax_truth_as_a_number", in_parallax("\"self_shadow\": 1"), 3, "layers[0].self_shadow", "is 1",
+     "expected true or false"},
+    {"parallax_truth_as_a_word", in_parallax("\"curvature\": \"yes\""), 3, "layers[0].curvature",
+     "is a string", "expected true or false"},
+    {"parallax_limit_of_occlusion", in_parallax("\"limit_offset\": true"), 3, "layers[0].limit_offset",
+     "does not apply to this method", "leave it out, or give \"method\": \"offset\""},
+    {"parallax_nearest", in_parallax("\"filter\": \"nearest\""), 3, "layers[0].filter",
+     "does not apply to heights that are seen from the side", "expected one of: bilinear, trilinear"},
     {"resolve_with_a_scale", in_document("\"layers\": [ {\"type\": \"resolve\",\n\"scale\": 1} ]"), 3,
      "layers[0]", "unknown key \"scale\"", "expected one of: type"},
 };

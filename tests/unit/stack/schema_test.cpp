@@ -70,6 +70,8 @@ json expected_schema(const Shape& shape) {
     return range_schema("number", shape.range);
   case Shape::Kind::integer:
     return range_schema("integer", shape.range);
+  case Shape::Kind::truth:
+    return {{"type", "boolean"}};
   case Shape::Kind::word:
     return {{"enum", shape.words}};
   case Shape::Kind::text:
@@ -215,6 +217,7 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     } else {
       continue;
     }
+    for (json* document : {&plain, &full}) (*document)["layers"].push_back({{"type", "resolve"}});
     plain["layers"].push_back(layer);
     full["layers"].push_back(full_layer);
   }

@@ -111,6 +111,15 @@ struct StackText {
            i.blend ? static_cast<int>(*i.blend) : -99);
     }
   }
+  void operator()(const ParallaxLayer& l) {
+    line("parallax channel {} method {} height {} level {} limit {} lod {} normal {} curvature {} facing {} "
+         "shadow {}",
+         static_cast<int>(l.channel), static_cast<int>(l.method), l.height, l.level, l.limit_offset,
+         static_cast<int>(l.lod), static_cast<int>(l.normal), l.curvature, static_cast<int>(l.facing),
+         l.self_shadow);
+    common(l.common);
+    texture(l.map);
+  }
   void operator()(const ResolveLayer&) { line("resolve"); }
   void layers(const std::vector<Layer>& list) {
     for (const Layer& layer : list) std::visit(*this, layer);

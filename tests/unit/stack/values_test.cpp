@@ -114,6 +114,46 @@ TEST(StackValues, only_layers_that_use_the_vertex_frame_ask_for_it) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(textures_of(stack.layers[i])[0].vertex_frame, wanted[i]) << i;
 }
 
+TEST(StackValues, the_smallest_parallax_has_the_defaults) {
+  const Stack stack = parse(R"({"surfgrad": 1, "layers": [{"type": "parallax", "map": "h"}]})");
+  const auto& layer = std::get<ParallaxLayer>(stack.layers[0]);
+  EXPECT_EQ(layer.map.file.path, "h");
+  EXPECT_EQ(layer.channel, MaskChannel::r);
+  EXPECT_EQ(layer.method, ParallaxMethod::occlusion);
+  EXPECT_EQ(layer.height, 0.05);
+  EXPECT_EQ(layer.level, 0);
+  EXPECT_FALSE(layer.limit_offset);
+  EXPECT_EQ(layer.lod, ParallaxLod::base);
+  EXPECT_EQ(layer.normal, ParallaxNormal::height);
+  EXPECT_TRUE(layer.curvature);
+  EXPECT_EQ(layer.facing, Facing::keep);
+  EXPECT_FALSE(layer.self_shadow);
+}
+
+TEST(StackValues, every_key_of_parallax_arrives) {
+  EXPECT_EQ(
+      text_of(parse(R"({"surfgrad": 1, "layers": [{"type": "parallax", "map": "h", "uv": 1,
+      "channel": "g", "method": "offset", "height": 0.5, "level": 0.25, "limit_offset": true,
+      "lod": "displaced", "normal": "none", "curvature": false, "facing": "reflect", "self_shadow": true,
+      "filter": "bilinear", "scale": -1, "opacity": 0.5, "blend": "mix"}]})")),
+      text_of(parse(R"({"surfgrad": 1, "layers": []})"))
+          .replace(
+              12, 0,
+              R"(parallax channel 1 method 0 height 0.5 level 0.25 limit true lod 1 normal 1 curvature false facing 1 shadow true
+scale -1 opacity 0.5 blend 1
+h uv 1 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 1
+)"));
+}
+
+TEST(StackValues, parallax_opens_any_pass) {
+  const char* list = R"([{"type": "parallax", "map": "h"}, {"type": "normal_map", "map": "n"},
+      {"type": "resolve"}, {"type": "parallax", "map": "h"}])";
+  const Stack stack =
+      parse(fmt::format(R"({{"surfgrad": 1, "layers": {}, "materials": {{"skin": {}}}}})", list, list));
+  EXPECT_EQ(stack.layers.size(), 4u);
+  EXPECT_EQ(stack.materials.at("skin").layers.size(), 4u);
+}
+
 constexpr std::string_view every_key = R"({
   "$schema": "stack.schema.json",
   "surfgrad": 1,
