@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
                  "or an internal error. An interrupt leaves either the whole output or none.");
   surfgrad::cli::add_render_command(program);
   surfgrad::cli::add_bake_command(program);
+  surfgrad::cli::add_displace_command(program);
   surfgrad::cli::add_gallery_command(program);
   surfgrad::cli::note_interrupts();
   const int status = run(program, argc, argv);

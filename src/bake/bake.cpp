@@ -2,6 +2,7 @@
 
 #include "bake/tangent_space.hpp"
 #include "diagnostic/error.hpp"
+#include "displace/scene.hpp"
 #include "engine/rows.hpp"
 #include "raster/visibility.hpp"
 #include "stage/stage.hpp"
@@ -60,7 +61,9 @@ vec3<double> texel_normal(const stage::Stage& stage, const scene::Scene& scene, 
 
 } // namespace
 
-Baked bake(const scene::Scene& scene, const Options& options, const Report& report) {
+Baked bake(const scene::Scene& asked, const Options& options, const Report& report) {
+  const auto displaced = displace::displaced(asked, report.at_the_start());
+  const scene::Scene& scene = displaced ? displaced->scene : asked;
   const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report);
   const std::size_t slot = stage.slot_of(0);
   Baked baked;

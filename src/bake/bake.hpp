@@ -33,7 +33,8 @@ struct Baked {
 };
 
 /// Bakes a scene's stack into one normal map over UV set 0, at texel centres, with the reference
-/// engine. Back faces do not occur: the surface is seen from its front.
+/// engine; of a scene with a displacement it is a map for the displaced mesh. Back faces do not occur: the
+/// surface is seen from its front.
 ///
 /// Throws InputError when a mesh has no UV set 0 or nothing lies in [0, 1]^2. Same bytes for any
 /// number of threads.

@@ -13,13 +13,17 @@ struct BumpMap {
 
 /// Derivative along the coordinates st of a bump map: slopes, dimensionless and independent of the
 /// tiling, or for heights (dh/ds, dh/dt) in units of the height, which the tiling multiplies.
+/// Heights are no steeper than 1e12 along either, so that no transform makes them infinite.
 template <LaneScalar T>
 [[nodiscard]] vec2<T> derivative(const BumpMap& bumps, vec2<T> st, vec2<T> footprint_dx,
                                  vec2<T> footprint_dy) {
   if (!bumps.heights)
     return along_coordinate(bumps.tiled, sample_slopes(bumps.tiled, st, footprint_dx, footprint_dy));
   const vec2<T> dh = sample_height_slopes(bumps.tiled, st, footprint_dx, footprint_dy);
-  return constant<T>(bumps.height) * by_coordinate(bumps.tiled, dh);
+  const vec2<T> steep = constant<T>(bumps.height) * saturated(by_coordinate(bumps.tiled, dh));
+  // Vertical to rounding; multiplied by a scale of 1e12 and an inverse one it stays within float.
+  const T most = constant<T>(1e12);
+  return {min(most, max(-most, steep.x)), min(most, max(-most, steep.y))};
 }
 
 } // namespace surfgrad::engine

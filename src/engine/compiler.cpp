@@ -57,8 +57,9 @@ Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image
   return {tiled(use, std::move(map)), slot};
 }
 
-BumpMap Compiler::bump_map(const stack::BumpMap& use, const stack::FileName& file) const {
-  switch (use.content) {
+BumpMap Compiler::bump_map(const stack::BumpCodes& use, stack::Content content,
+                           const stack::FileName& file) const {
+  switch (content) {
   case stack::Content::derivative:
     return {tiled(use, maps_.derivatives(file, use.derivative, use.green))};
   case stack::Content::height: {
@@ -71,11 +72,15 @@ BumpMap Compiler::bump_map(const stack::BumpMap& use, const stack::FileName& fil
   return {tiled(use, maps_.slopes(file, use.channels, use.green))};
 }
 
+vec2<double> Compiler::rotation(double degrees) { return rotation_of(degrees); }
+
 Influence Compiler::influence(const stack::LayerCommon& common) const {
-  Influence influence{common.scale, common.opacity, common.blend == stack::Blend::mix, std::nullopt};
-  if (common.mask)
-    influence.mask = texture(*common.mask, maps_.weights(common.mask->file, common.mask->channel));
-  return influence;
+  return {common.scale, common.opacity, common.blend == stack::Blend::mix, mask(common)};
+}
+
+std::optional<Texture> Compiler::mask(const stack::LayerWeight& common) const {
+  if (!common.mask) return std::nullopt;
+  return texture(*common.mask, maps_.weights(common.mask->file, common.mask->channel));
 }
 
 } // namespace surfgrad::engine

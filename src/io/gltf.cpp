@@ -3,6 +3,7 @@
 #include "io/gltf_document.hpp"
 #include "io/gltf_material.hpp"
 #include "io/gltf_primitive.hpp"
+#include "io/model_file.hpp"
 
 #include <fmt/format.h>
 
@@ -93,11 +94,12 @@ class Reader {
     if (model_.objects.empty())
       document_->fail("", "no node of the scene shows a mesh of triangles", "expected at least one");
     if (morph_weights_.size() > most_targets_)
-      document_->fail("",
-                      fmt::format("has {} morph targets but {} weights are given",
+      throw TooManyWeights(
+          {.file = document_->file,
+           .problem = fmt::format("has {} morph targets but {} weights are given",
                                   most_targets_ == 0 ? "no" : fmt::format("at most {}", most_targets_),
                                   morph_weights_.size()),
-                      fmt::format("expected at most {}", most_targets_));
+           .remedy = fmt::format("expected at most {}", most_targets_)});
     return std::move(model_);
   }
 

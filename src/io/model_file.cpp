@@ -47,9 +47,9 @@ Model read_model(const std::filesystem::path& file, const ModelOptions& options)
   if (bytes.empty()) throw InputError{{.file = file, .problem = "is empty", .remedy = "expected a model"}};
   if (extension != ".obj") return read_gltf(file, bytes, options.morph_weights);
   if (!options.morph_weights.empty())
-    throw InputError{{.file = file,
-                      .problem = "has no morph targets: the format knows none",
-                      .remedy = "leave out their weights or convert the model to glTF"}};
+    throw TooManyWeights{{.file = file,
+                          .problem = "has no morph targets: the format knows none",
+                          .remedy = "leave out their weights or convert the model to glTF"}};
   return read_obj(file, bytes);
 }
 

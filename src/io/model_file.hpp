@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnostic/error.hpp"
 #include "io/model.hpp"
 
 #include <cstddef>
@@ -13,6 +14,12 @@ struct ModelOptions {
   /// Weight i goes to morph target i of every mesh that has one, in place of the file's; targets beyond
   /// the list keep theirs. Finite, of any sign; no more than the mesh with most targets has.
   std::vector<double> morph_weights{};
+};
+
+/// More morph weights than any mesh of the model has targets: a mistake of whoever gives them.
+class TooManyWeights : public InputError {
+ public:
+  using InputError::InputError;
 };
 
 /// Reads a glTF 2.0 model (.gltf, .glb) or a Wavefront OBJ. The content decides between the two
@@ -33,7 +40,7 @@ struct ModelOptions {
 ///       texture tilts the surface. Materials are the names of usemtl, visible from both sides, for the
 ///       format knows none; .mtl files are not read.
 ///
-/// errors  InputError names the file, the accessor or line, and what would be right.
+/// errors  InputError names the file, the accessor or line, and what would be right; TooManyWeights.
 [[nodiscard]] Model read_model(const std::filesystem::path& file, const ModelOptions& options = {});
 
 /// Formats that can be written: the two forms of glTF 2.0.

@@ -1,5 +1,8 @@
 #include "mesh/subdivide.hpp"
 
+#include "mesh/bounds.hpp"
+#include "mesh/places.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -57,20 +60,42 @@ Middle middle_of(double3 a, double3 b, double3 normal_a, double3 normal_b, EdgeS
   return {narrow(position), narrow(normal)};
 }
 
+std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  const auto [low, high] = std::minmax(a, b);
+  return std::uint64_t{low} << 32 | high;
+}
+
 /// Makes the vertex in the middle of each edge once.
 class Middles {
  public:
-  Middles(TriangleMesh& mesh, EdgeShape shape) : mesh_(&mesh), shape_(shape) {
+  Middles(TriangleMesh& mesh, EdgeShape shape) : mesh_(&mesh), shape_(shape), first_(mesh.positions.size()) {
     // Most edges belong to two triangles.
     vertex_of_edge_.reserve(mesh.triangles.size() / 2 * 3);
   }
 
   std::uint32_t vertex(std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax(a, b);
     const auto next = static_cast<std::uint32_t>(mesh_->positions.size());
-    const auto [entry, is_new] = vertex_of_edge_.try_emplace(std::uint64_t{low} << 32 | high, next);
+    const auto [entry, is_new] = vertex_of_edge_.try_emplace(edge_key(a, b), next);
     if (is_new) add(a, b);
     return entry->second;
+  }
+
+  /// Brings the middles together that the sides of a crease have put in different places: to the centre of
+  /// the box around them, which does not depend on their order or on how many of them coincide.
+  void close_creases() {
+    const Places ends = places_of(std::span(mesh_->positions).first(first_));
+    std::unordered_map<std::uint64_t, Bounds> sides;
+    sides.reserve(vertex_of_edge_.size());
+    const auto place_key = [&](std::uint64_t edge) {
+      return edge_key(ends.of_vertex[edge >> 32], ends.of_vertex[edge & 0xffffffff]);
+    };
+    for (const auto& [edge, vertex] : vertex_of_edge_) {
+      const double3 p = widen(mesh_->positions[vertex]);
+      Bounds& around = sides[place_key(edge)];
+      around = unite(around, {p, p});
+    }
+    for (const auto& [edge, vertex] : vertex_of_edge_)
+      mesh_->positions[vertex] = narrow(center(sides[place_key(edge)]));
   }
 
  private:
@@ -85,6 +110,7 @@ class Middles {
 
   TriangleMesh* mesh_;
   EdgeShape shape_;
+  std::size_t first_; ///< vertices before this one are not middles
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_edge_{};
 };
 
@@ -102,6 +128,7 @@ void split(TriangleMesh& mesh, EdgeShape shape) {
     triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     materials.insert(materials.end(), 4, mesh.material_of_triangle[i]);
   }
+  if (shape == EdgeShape::curved) middles.close_creases();
   for (TangentSpace& space : mesh.tangent_spaces) {
     std::vector<vec4<float>> corners;
     corners.reserve(4 * space.corners.size());

@@ -21,8 +21,8 @@ enum class EdgeShape {
 ///
 /// Edges stay closed: a middle depends on the positions and normals at the ends of its edge alone, to
 /// the bit, whichever triangle asks and in whichever direction. So vertices doubled for their texture
-/// coordinates split into doubled vertices at one place. Where the two sides of an edge have different
-/// normals (a crease) this holds for straight edges only: curved ones part.
+/// coordinates split into doubled vertices at one place. Where the sides of an edge have different
+/// normals (a crease) the cubics part; the middles then meet halfway between them.
 ///
 /// degenerate  normals and tangents that are opposed give (0, 0, 0); zero normals leave an edge straight
 /// fails       MachineError for more triangles or vertices than 32 bits can number

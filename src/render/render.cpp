@@ -1,6 +1,7 @@
 #include "render/render.hpp"
 
 #include "diagnostic/error.hpp"
+#include "displace/scene.hpp"
 #include "engine/rows.hpp"
 #include "raster/visibility.hpp"
 #include "render/camera.hpp"
@@ -91,8 +92,10 @@ void check_options(const Options& options) {
        .remedy = "what fits is " + fits});
 }
 
-Picture render(const scene::Scene& scene, const Options& options, const Report& report) {
+Picture render(const scene::Scene& asked, const Options& options, const Report& report) {
   check_options(options);
+  const auto displaced = displace::displaced(asked, report.at_the_start());
+  const scene::Scene& scene = displaced ? displaced->scene : asked;
   const bool beauty = options.aov == Aov::beauty;
   const int k = samples_along_a_side(options);
   const int width = options.width * k;

@@ -39,8 +39,9 @@ inline constexpr std::int64_t most_samples = std::int64_t{1} << 28;
 /// render does so too: this is for before the scene is loaded.
 void check_options(const Options& options);
 
-/// Renders a scene with the reference engine. Throws as check_options does. Warns (through report) about
-/// normal maps with texels that point into the surface. Same bytes for any number of threads.
+/// Renders a scene with the reference engine, displaced first if it asks for that. Throws as check_options
+/// does. Warns (through report) about normal maps with texels that point into the surface. Same bytes for any
+/// number of threads.
 [[nodiscard]] Picture render(const scene::Scene& scene, const Options& options, const Report& report = {});
 
 /// Raw values of an auxiliary picture brought into [0, 1] for integer files: vectors as v / 2 + 1/2,

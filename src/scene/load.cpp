@@ -48,6 +48,8 @@ template <class Read>
 auto named_by(const fs::path& document, const stack::FileName& name, const Read& read) {
   try {
     return read();
+  } catch (const io::TooManyWeights&) {
+    throw; // the mistake is elsewhere in the document
   } catch (const InputError& error) {
     if (document.empty()) throw;
     Fault fault = error.fault();
@@ -75,6 +77,23 @@ void load_maps(std::vector<stack::Layer>& layers, const fs::path& document, Scen
       file->path = beside(document, file->path);
       load_image(*file, document, scene);
     }
+}
+
+/// The model with the document's morph weights.
+io::Model read_model(const fs::path& model, const stack::Stack& document) {
+  try {
+    return named_by(document.file, *document.mesh,
+                    [&] { return io::read_model(model, {.morph_weights = document.morph.weights}); });
+  } catch (const io::TooManyWeights& error) {
+    throw InputError({document.file, document.morph.line, "morph",
+                      model.filename().string() + " " + error.fault().problem, error.fault().remedy});
+  }
+}
+
+void refuse_weights_of_the_demo(const stack::Stack& document) {
+  if (document.morph.weights.empty()) return;
+  throw InputError({document.file, document.morph.line, "morph", "the built-in demo has no morph targets",
+                    "give a \"mesh\" that has some"});
 }
 
 void take_model(io::Model model, Scene& scene) {
@@ -137,6 +156,8 @@ void check_uv(const stack::Texture& texture, const fs::path& source, const Objec
 void check_uv_sets(const Scene& scene, const fs::path& document, const fs::path& model) {
   for (const Object& object : scene.objects) {
     const mesh::TriangleMesh& mesh = scene.meshes[object.mesh];
+    if (scene.displace && scene.displace->map)
+      check_uv(*scene.displace->map, document, object, mesh, "displace.map.uv");
     const std::set<std::uint32_t> used(mesh.material_of_triangle.begin(), mesh.material_of_triangle.end());
     for (const std::uint32_t material : used)
       for (const stack::Layer& layer : scene.materials[material].layers)
@@ -154,8 +175,9 @@ Scene load_document(const fs::path& file) {
   fs::path model;
   if (document.mesh) {
     model = beside(file, document.mesh->path);
-    take_model(named_by(file, *document.mesh, [&] { return io::read_model(model); }), scene);
+    take_model(read_model(model, document), scene);
   } else {
+    refuse_weights_of_the_demo(document);
     Scene demo = demo_scene();
     scene.meshes = std::move(demo.meshes);
     scene.objects = std::move(demo.objects);
@@ -163,6 +185,11 @@ Scene load_document(const fs::path& file) {
     scene.images = std::move(demo.images);
   }
   assign_layers(document, scene);
+  scene.displace = std::move(document.displace);
+  if (scene.displace && scene.displace->map) {
+    scene.displace->map->file.path = beside(file, scene.displace->map->file.path);
+    load_image(scene.displace->map->file, file, scene);
+  }
   scene.camera = document.camera;
   scene.lights = document.lights;
   if (scene.lights.environment) {

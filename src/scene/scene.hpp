@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,14 @@ struct Object {
 };
 
 /// A stack with all it names, loaded. Every index is in range, every image a layer names is there,
-/// every mesh has the UV sets that its materials' layers read.
+/// every mesh has the UV sets that its materials' layers read, and that a displacement's map reads.
 struct Scene {
   std::filesystem::path source{}; ///< document or model it came from, for messages; empty: the demo
   std::vector<mesh::TriangleMesh> meshes{};
   std::vector<Object> objects{};
   std::vector<Material> materials{}; ///< what TriangleMesh::material_of_triangle indexes
   std::map<std::filesystem::path, std::shared_ptr<const image::Image>> images{};
+  std::optional<stack::Displace> displace{}; ///< still to be done: `meshes` stand as modelled
   stack::Camera camera{};
   stack::Lights lights{};
   std::shared_ptr<const image::Image> environment{}; ///< null: the built-in sky

@@ -3,12 +3,17 @@
 /// The stack: a JSON document of bump layers, read into structs whose every value is in its range.
 /// docs/stack-format.md describes the document, docs/stack.schema.json is its schema.
 
+#include "stack/displace.hpp"
+#include "stack/layers/decal.hpp"
 #include "stack/layers/derivative_map.hpp"
 #include "stack/layers/height_map.hpp"
 #include "stack/layers/noise.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
+#include "stack/layers/parallax.hpp"
+#include "stack/layers/planar.hpp"
 #include "stack/layers/resolve.hpp"
+#include "stack/layers/triplanar.hpp"
 #include "stack/view.hpp"
 
 #include <map>
@@ -19,7 +24,7 @@ namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
 using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer,
-                           NoiseLayer, ResolveLayer>;
+                           NoiseLayer, PlanarLayer, TriplanarLayer, DecalLayer, ParallaxLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {
@@ -35,6 +40,8 @@ struct Stack {
 
   std::filesystem::path file{}; ///< the document, as it was named
   std::optional<FileName> mesh{};
+  MorphWeights morph{};
+  std::optional<Displace> displace{};
   std::optional<BackFaces> back_faces{}; ///< absent: as the mesh's material says
   bool has_layers = false;               ///< whether the document has `layers`, be it an empty list
   std::vector<Layer> layers{};           ///< for every material that `materials` does not name
