@@ -24,10 +24,13 @@ void require_content(Word content, const Value& value, std::string_view key,
 template <class Word>
 void check_keys(Word content, const Value& value) {
   require_content(content, value, "channels", {Word::normal});
-  if constexpr (requires { Word::object_normal; })
+  if constexpr (requires { Word::object_normal; }) {
     require_content(content, value, "green", {Word::normal, Word::derivative, Word::object_normal});
-  else
+    // Whole normals do not turn with the tiles of a map.
+    require_content(content, value, "tiling", {Word::normal, Word::derivative, Word::height});
+  } else {
     require_content(content, value, "green", {Word::normal, Word::derivative});
+  }
   require_content(content, value, "range", {Word::derivative});
   require_content(content, value, "neutral", {Word::derivative});
   require_content(content, value, "height_channel", {Word::height});

@@ -23,22 +23,24 @@ void read_tile(Tiled& tiled, const Value& value, const Shape& shape) {
 }
 
 /// Hex tiles show a map beyond its borders, which must therefore continue across them.
-void check_tiling(Tiled& tiled, const Value& value) {
-  const Member* wrap = value.find("wrap");
-  if (tiled.tiling == Tiling::hex && tiled.wrap != Wrap::repeat && wrap != nullptr)
-    value.member(*wrap).fail("does not go with hex tiling", R"(expected "repeat", or no "tiling")");
+void check_tiling(const Tiled& tiled, const Value& value) {
   const Member* turn = value.find("hex_turn");
-  if (tiled.tiling != Tiling::hex && turn != nullptr)
-    value.member(*turn).fail("does not apply to plain tiling", R"(leave it out, or give "tiling": "hex")");
+  if (tiled.tiling != Tiling::hex) {
+    if (turn != nullptr)
+      value.member(*turn).fail("does not apply to plain tiling", R"(leave it out, or give "tiling": "hex")");
+    return;
+  }
+  if (tiled.wrap == Wrap::repeat) return;
+  const Member* wrap = value.find("wrap");
+  value.member(wrap != nullptr ? *wrap : *value.find("tiling"))
+      .fail("hex tiling needs a map that repeats", R"(expected "wrap": "repeat", or no "tiling")");
 }
 
 } // namespace
 
-void refuse_hex_tiling(const Tiled& tiled, const Value& value) {
-  if (tiled.tiling != Tiling::hex) return;
-  value.member(*value.find("tiling"))
-      .fail("is \"hex\", but whole normals do not turn with the tiles of a map",
-            "leave it out, or give a tangent-space map");
+void refuse_hex_tiling(const Tiled& tiled, const Value& value, const char* why) {
+  if (tiled.tiling == Tiling::hex)
+    value.member(*value.find("tiling")).fail(std::string(R"(is "hex", but )") + why, "leave it out");
 }
 
 const Fields<Tiled>& Tiled::fields() {

@@ -37,8 +37,8 @@ struct Tiled {
   static const Fields<Tiled>& fields();
 };
 
-/// Refuses hex tiling: for maps of whole normals, which do not turn with the plane they lie on.
-void refuse_hex_tiling(const Tiled& tiled, const Value& value);
+/// Refuses hex tiling, for maps that are more than a picture on a plane. `why` completes "is hex, but".
+void refuse_hex_tiling(const Tiled& tiled, const Value& value, const char* why);
 
 /// A 2D map on a texture coordinate of the mesh.
 struct Texture : Tiled {

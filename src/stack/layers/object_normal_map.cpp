@@ -5,14 +5,15 @@
 namespace surfgrad::stack {
 
 const Fields<ObjectNormalMapLayer>& ObjectNormalMapLayer::fields() {
-  static const auto table = Fields<ObjectNormalMapLayer>()
-                                .type(type)
-                                .part(&ObjectNormalMapLayer::map)
-                                .word("space", &ObjectNormalMapLayer::space)
-                                .part(&ObjectNormalMapLayer::common)
-                                .finally([](ObjectNormalMapLayer& layer, const Value& value) {
-                                  refuse_hex_tiling(layer.map, value);
-                                });
+  static const auto table =
+      Fields<ObjectNormalMapLayer>()
+          .type(type)
+          .part(&ObjectNormalMapLayer::map)
+          .word("space", &ObjectNormalMapLayer::space)
+          .part(&ObjectNormalMapLayer::common)
+          .finally([](ObjectNormalMapLayer& layer, const Value& value) {
+            refuse_hex_tiling(layer.map, value, "whole normals do not turn with the tiles of a map");
+          });
   return table;
 }
 

@@ -14,6 +14,7 @@ void check(const ParallaxLayer& layer, const Value& value) {
     value.member(*value.find("filter"))
         .fail("does not apply to heights that are seen from the side",
               "expected one of: bilinear, trilinear");
+  refuse_hex_tiling(layer.map, value, "rays march through the map as it lies");
 }
 
 } // namespace

@@ -210,8 +210,8 @@ TEST(HexTiling, SmoothHeightsHaveTheSlopeOfTheTiledSpline) {
       return c.weights.x * at(0) + c.weights.y * at(1) + c.weights.z * at(2);
     };
     const vec2<double> expected{height(c.right) - height(c.here), height(c.above) - height(c.here)};
-    // Second derivatives of the spline, below 4 per texel^2, times half a step's square of 3 * 16 * 2e-6
-    // texels.
+    // A step of 2e-6 is one of 9.6e-5 texels for a tile of 3 and 16 texels; half its square times the
+    // spline's second derivative, below 4 per texel^2.
     worst.add(height_per_pixel(c.layer, c.fragment), expected, 2 * 9.2e-9, n);
   }
 }
@@ -224,20 +224,22 @@ TEST(HexTiling, ProjectedHeightsHaveTheSlopeOfTheTiledHeights) {
     for (int x = 0; x < 64; ++x)
       image.at(x, y, 0) = static_cast<float>(std::sin(2 * 3.14159265358979324 * (x + 0.5) / 64) +
                                              std::cos(2 * 3.14159265358979324 * (y + 0.5) / 128));
+  const auto heights = shared(image::make_height_map(image, 0));
+  const auto slopes = shared(image::make_height_slopes(image, 0, {}));
   Worst worst("slope");
   for (long n = 0; n < 2000; ++n) {
     HeightMap taps;
-    taps.texture.tiled = laid_anyhow(random, hex(shared(image::make_height_map(image, 0))));
+    taps.texture.tiled = laid_anyhow(random, hex(heights));
     BumpMap bumps{taps.texture.tiled, true, 1};
-    bumps.tiled.map = shared(image::make_height_slopes(image, 0, {}));
+    bumps.tiled.map = slopes;
     raster::Fragment<double> f = test::random_fragment(random);
     raster::UvFragment<double>& uv = f.uvs[0];
     uv.dst_dx = uv.footprint_dx = {0.002, 0};
     uv.dst_dy = uv.footprint_dy = {0, 0.002};
     const vec2<double> got = derivative(bumps, uv.st, no_footprint, no_footprint);
     const vec2<double> expected = (1 / 0.002) * height_per_pixel(taps, f);
-    // A linear filter's slope is that of half a texel beside at most; slopes change by 4 pi^2 / 64 a texel
-    // in the map, twice that for a step of 0.4 texels more; times a tile of 3 along each axis.
+    // The wave's slope by the map changes by 4 pi^2 / 64 a texel. The taps see a chord within a texel, half a
+    // texel away at most, or across two, over a step of 0.4: within 1.5 texels, times a tile of 3.
     worst.add(got, expected, 3 * 1.5 * 6.3 * 6.3 / 64, n);
     // The scale-free layer sees the same slopes; its tile's size does not count.
     HeightMap scale_free = taps;
@@ -308,8 +310,9 @@ TEST(HexTiling, NothingJumpsWhereTilesMeet) {
       worst = std::max(worst, length(there - here));
       typical += length(here) / points;
     }
-    // Texels of 1/8 differ by slopes of 1 at most, 16 per unit; weights change by less than 7 * 4.6 per unit
-    // and tile, against three slopes of 1: by 600 per unit with what the contrast multiplies, over 2 steps.
+    // Within 8 texels slopes of +-0.5 change by less than 16 per unit, three tiles' weights by less than
+    // 3 * 7 * 2.31 (the exponent times the slope of a weight); a contrast of 1.5 multiplies both by 2.5 at
+    // most, and gradients are longer than slopes are steep by less than 4.
     std::printf("  %s: largest change across a border %.2g of slopes of %.2g\n", name, worst, typical);
     EXPECT_GT(typical, 0.01) << name;
     EXPECT_LE(worst, 600 * 2 * step) << name;

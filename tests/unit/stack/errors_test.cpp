@@ -15,7 +15,8 @@ struct Case {
   std::string remedy;
 };
 
-const std::string kind_words = "normal_map, derivative_map, height_map, object_normal_map, noise, planar, triplanar, decal, parallax, resolve";
+const std::string kind_words = "normal_map, derivative_map, height_map, object_normal_map, noise, planar, "
+                               "triplanar, decal, parallax, resolve";
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -190,17 +191,22 @@ const Case wrong_layer[] = {
     {"tiling_word", in_layer("\"tiling\": \"hexagon\""), 5, "layers[0].tiling", "is \"hexagon\"",
      "expected one of: plain, hex"},
     {"hex_tiles_of_a_clamped_map", in_layer("\"tiling\": \"hex\",\n\"wrap\": \"clamp\""), 6, "layers[0].wrap",
-     "does not go with hex tiling", "expected \"repeat\", or no \"tiling\""},
+     "hex tiling needs a map that repeats", "expected \"wrap\": \"repeat\", or no \"tiling\""},
     {"hex_tiles_of_a_mirrored_mask", in_mask("\"wrap\": \"mirror\", \"tiling\": \"hex\""), 6,
-     "layers[0].mask.wrap", "does not go with hex tiling", "expected \"repeat\", or no \"tiling\""},
+     "layers[0].mask.wrap", "hex tiling needs a map that repeats",
+     "expected \"wrap\": \"repeat\", or no \"tiling\""},
     {"turn_of_plain_tiles", in_layer("\"hex_turn\": 0"), 5, "layers[0].hex_turn",
      "does not apply to plain tiling", "leave it out, or give \"tiling\": \"hex\""},
     {"turn_beyond_half", in_layer("\"tiling\": \"hex\", \"hex_turn\": 181"), 5, "layers[0].hex_turn",
      "is 181", "expected a number from 0 to 180"},
+    {"hex_tiles_of_a_decal_that_clamps_by_default",
+     in_document("\"layers\": [ {\"type\": \"decal\", \"map\": \"a\",\n\"tiling\": \"hex\"} ]"), 3,
+     "layers[0].tiling", "hex tiling needs a map that repeats",
+     "expected \"wrap\": \"repeat\", or no \"tiling\""},
     {"hex_tiles_of_whole_normals",
      in_document("\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"tiling\": \"hex\"} ]"),
      3, "layers[0].tiling", "is \"hex\", but whole normals do not turn with the tiles of a map",
-     "leave it out, or give a tangent-space map"},
+     "leave it out"},
     {"filter_word", in_layer("\"filter\": \"linear\""), 5, "layers[0].filter", "is \"linear\"",
      "did you mean \"bilinear\"? expected one of: nearest, bilinear, trilinear"},
     {"channels_word", in_layer("\"channels\": \"rgb\""), 5, "layers[0].channels", "is \"rgb\"",

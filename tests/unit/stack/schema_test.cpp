@@ -40,9 +40,9 @@ json rules_of(json value) {
   if (value.is_array())
     for (json& element : value) element = rules_of(element);
   if (!value.is_object()) return value;
-  static const std::set<std::string> kept = {"#/definitions/mask",       "#/definitions/camera",
-                                             "#/definitions/convention", "#/definitions/lights",
-                                             "#/definitions/sun",        "#/definitions/layers",     "#/definitions/decal_instance"};
+  static const std::set<std::string> kept = {
+      "#/definitions/mask", "#/definitions/camera", "#/definitions/convention",    "#/definitions/lights",
+      "#/definitions/sun",  "#/definitions/layers", "#/definitions/decal_instance"};
   if (value.contains("$ref") && kept.count(value["$ref"]) == 0)
     return rules_of(schema().at(json::json_pointer(value["$ref"].get<std::string>().substr(1))));
   value.erase("description");
@@ -146,9 +146,9 @@ TEST(StackSchema, knows_the_objects_and_layer_kinds_of_the_parser) {
 
 /// The keys that apply to some contents of a projected map only.
 const std::map<std::string, std::set<std::string>> keys_of_content = {
-    {"normal", {"green"}},
-    {"derivative", {"green", "range", "neutral"}},
-    {"height", {"height_channel", "height"}},
+    {"normal", {"green", "tiling"}},
+    {"derivative", {"green", "range", "neutral", "tiling"}},
+    {"height", {"height_channel", "height", "tiling"}},
     {"object_normal", {"green"}}};
 
 /// The contents of a layer kind; one of none for kinds without that key.

@@ -71,6 +71,9 @@ TEST(StackTriplanar, names_what_is_wrong) {
   EXPECT_EQ(fault_of(R"("map": "a.png", "content": "object_normal", "channels": "xy")"),
             "layers[0].channels: does not apply to this content; leave it out, or give \"content\": "
             "\"normal\"");
+  EXPECT_EQ(fault_of(R"("map": "a.png", "content": "object_normal", "tiling": "hex")"),
+            "layers[0].tiling: does not apply to this content; leave it out, or give \"content\": \"normal\" "
+            "or \"derivative\" or \"height\"");
 }
 
 TEST(StackTriplanar, reads_every_file_and_no_texture_coordinate) {

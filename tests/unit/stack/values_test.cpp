@@ -189,8 +189,7 @@ green 1
 resolve
 object_normal_map space 1
 scale 2 opacity 0 blend 1
-q.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2
-hex turn 12.5
+q.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2 hex turn 12.5
 channel 0
 sub/b.exr uv 1 tile 1 2 rotate 10 offset 0 1 wrap 2 filter 1
 green 1
