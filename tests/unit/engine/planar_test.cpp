@@ -232,8 +232,9 @@ TEST_F(Planars, StayFiniteInFloatForTheLargestNumbers) {
         f.dp_dx = {0.01F, 0, 0};
         f.dp_dy = {0, 0.01F, 0};
         f.front_facing = true;
+        const mat3<double> r = random.rotation();
         const auto c =
-            compose(program, f, BackFaces::same, test::placed({{size, 0, 0}, {0, 1, 0}, {0, 0, size}}));
+            compose(program, f, BackFaces::same, test::placed({size * r.x, size * r.y, size * r.z}));
         EXPECT_NEAR(length(c.normal), 1, 1e-6) << "heights " << height << ", scale " << size;
       }
   }

@@ -340,16 +340,17 @@ TEST_F(Triplanars, OnBackFacesAreTheSameSurfaceGradient) {
 
 TEST_F(Triplanars, DoNotReachLanesWherePlanesHaveNoWeight) {
   using simd::EmulatedFloat;
-  add_constant("x", {1, 0.5, 0.5}); // the normal of the facet: nothing, of either sign
-  lab.add("other", surfgrad::test::random_normal_map(random, 16, 16, 0.5));
+  // The facet's own normal adds nothing; the sign of that zero shows what else was added.
+  add_constant("x", {1, 0.5, 0.5});
+  add_constant("other", {1, 0.2, 0.2});
   for (const auto content : {stack::TriplanarContent::normal, stack::TriplanarContent::object_normal}) {
     const Program program = lab.compile({triplanar_layer({"x", "other", "other"}, content)});
     const auto& layer = std::get<Triplanar>(program.layers[0]);
     const Placement placement = test::placed(test::identity);
     Point<EmulatedFloat> pack{{}, {}, true, EmulatedFloat(1), placement};
     Point<float> alone{{}, {}, true, 1, placement};
-    pack.frame.normal.x = EmulatedFloat(1);
-    alone.frame.normal.x = 1;
+    pack.frame.normal = {EmulatedFloat(1), EmulatedFloat(-0.0F), EmulatedFloat(-0.0F)};
+    alone.frame.normal = {1, -0.0F, -0.0F};
     for (int i = 1; i < simd::emulated_width; ++i) { // all lanes but the first see the other planes
       pack.frame.normal.x.lane[i] = 0;
       (i % 2 == 0 ? pack.frame.normal.y : pack.frame.normal.z).lane[i] = i < 4 ? 1.0F : -1.0F;
