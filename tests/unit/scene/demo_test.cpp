@@ -44,11 +44,14 @@ TEST(DemoScene, ReadsOnlyWhatItHas) {
   const Scene scene = demo_scene();
   ASSERT_EQ(scene.objects.size(), 1u);
   for (const Material& material : scene.materials)
-    for (const stack::Layer& layer : material.layers)
+    for (stack::Layer layer : material.layers) {
+      for (const stack::FileName* file : stack::files_of(layer)) {
+        EXPECT_TRUE(scene.images.contains(file->path));
+      }
       for (const stack::TextureUse& use : stack::textures_of(layer)) {
-        EXPECT_TRUE(scene.images.contains(use.texture->file.path));
         EXPECT_LT(static_cast<std::size_t>(use.texture->uv), scene.meshes[0].uv_sets.size());
       }
+    }
 }
 
 TEST(DemoScene, BakesEveryTexelOfItsUnwrapWithoutATrouble) {

@@ -15,8 +15,7 @@ struct Case {
   std::string remedy;
 };
 
-const std::string kind_words = "normal_map, derivative_map, height_map, object_normal_map, noise, planar, "
-                               "triplanar, decal, parallax, resolve";
+const std::string kind_words = "normal_map, derivative_map, height_map, object_normal_map, noise, planar, triplanar, decal, parallax, resolve";
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
