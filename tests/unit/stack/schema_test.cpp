@@ -39,9 +39,9 @@ json rules_of(json value) {
   if (value.is_array())
     for (json& element : value) element = rules_of(element);
   if (!value.is_object()) return value;
-  static const std::set<std::string> kept = {"#/definitions/mask", "#/definitions/camera",
-                                             "#/definitions/lights", "#/definitions/sun",
-                                             "#/definitions/layers"};
+  static const std::set<std::string> kept = {
+      "#/definitions/mask",   "#/definitions/camera",   "#/definitions/lights",          "#/definitions/sun",
+      "#/definitions/layers", "#/definitions/displace", "#/definitions/displacement_map"};
   if (value.contains("$ref") && kept.count(value["$ref"]) == 0)
     return rules_of(schema().at(json::json_pointer(value["$ref"].get<std::string>().substr(1))));
   value.erase("description");
@@ -76,6 +76,8 @@ json expected_schema(const Shape& shape) {
     return {{"type", "string"}, {"minLength", 1}};
   case Shape::Kind::vector:
     return array(shape.components, number);
+  case Shape::Kind::numbers:
+    return {{"type", "array"}, {"items", number}};
   case Shape::Kind::tile:
     return {{"anyOf", {nonzero, array(2, nonzero)}}};
   case Shape::Kind::object:
@@ -144,13 +146,22 @@ json with_defaults(const ObjectFormat& object) {
 
 TEST(StackSchema, defaults_are_those_of_the_parser) {
   int written = 0;
-  json plain = {{"surfgrad", 1}, {"camera", json::object()}, {"lights", {{"sun", json::object()}}}};
+  json plain = {{"surfgrad", 1},
+                {"camera", json::object()},
+                {"lights", {{"sun", json::object()}}},
+                {"displace", {{"map", {{"map", "h.png"}}}, {"height", 1}}}};
   json full = plain;
   for (const ObjectFormat& object : document_format()) {
-    const json defaults = with_defaults(object);
+    json defaults = with_defaults(object);
+    if (object.name == "displace") // with the map that the document has, no function
+      for (const char* odd :
+           {"function", "basis", "worley", "octaves", "lacunarity", "gain", "power", "frequency", "offset"})
+        defaults.erase(odd);
     written += static_cast<int>(defaults.size());
     if (object.name == "camera") full["camera"] = defaults;
     if (object.name == "lights") full["lights"].update(defaults);
+    if (object.name == "displace") full["displace"].update(defaults);
+    if (object.name == "displacement_map") full["displace"]["map"].update(defaults);
     if (object.name == "sun") full["lights"]["sun"] = defaults;
     json layer = {{"type", object.is_layer ? std::string(object.name) : "normal_map"}};
     if (object.name != "resolve" && object.name != "noise") layer["map"] = "n.png";
@@ -167,8 +178,9 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     plain["layers"].push_back(layer);
     full["layers"].push_back(full_layer);
   }
-  // 7 of a mask, 11 of each map layer, 14 of noise, 4 of the camera, 3 of the lights.
-  EXPECT_EQ(written, 50);
+  // 7 of a mask, 11 of each map layer, 14 of noise, 4 of the camera, 3 of the lights, 3 of displacement, 6 of
+  // its map.
+  EXPECT_EQ(written, 59);
   EXPECT_EQ(text_of(parse_stack(full.dump(), "full")), text_of(parse_stack(plain.dump(), "plain")));
 }
 
@@ -182,7 +194,7 @@ TEST(StackDocumentation, examples_parse) {
     EXPECT_NO_THROW(static_cast<void>(parse_stack(example, "stack-format.md"))) << example;
     ++examples;
   }
-  EXPECT_EQ(examples, 4);
+  EXPECT_EQ(examples, 6);
 }
 
 TEST(StackDocumentation, names_every_key_and_word) {
