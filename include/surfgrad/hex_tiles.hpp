@@ -42,22 +42,25 @@ template <Scalar T>
 
 /// The tiles over a texture coordinate.
 ///
-/// st          texture coordinate, one period of the map a unit. The map must wrap around.
+/// st          texture coordinate in which the tiles turn; the map must wrap around
 /// rotation    how far tiles are turned, uniform: 0 not at all, 1 by any angle, r within +-r / 2 turns.
 ///             Taken into [0, 1], NaN as 0.
-/// edge        side of the triangles in periods, uniform: a tile is 2 * edge across. With the default no
-///             tile shows a point of the map twice.
+/// edge        side of the triangles, uniform: a tile is 2 * edge across. With the default no tile shows a
+///             point of the map twice.
+/// period      of the map along each axis, uniform, positive. An image that is not square turns as a
+///             picture, not sheared, where its texels are square: give its sides in units of the shorter.
 /// returns     weights that are continuous everywhere: a tile enters and leaves with weight 0. Each tile is
 ///             the map turned about its own centre and then moved by an offset:
 ///             st[i] = R_i * (st - centre_i) + centre_i + offset_i; turn and offset are functions of the
-///             vertex alone, in steps of 2^-16, the same for every map.
+///             vertex alone, the same for every map, in steps of 2^-16 of a turn and of a period.
 /// degenerate  components of st beyond +-noise_extent * edge, and NaN, are taken as that bound: never NaN. An
 ///             edge outside [1e-12, 1e12] is taken as 1.
-/// error       weight: 4 eps * (1 + |st| / edge); st: 4 eps * (|st| + edge + 1); rotation: 2 eps
+/// error       weight: 4 eps * (1 + |st| / edge); st: 4 eps * (|st| + edge + |period|); rotation: 2 eps
 /// source      Heitz and Neyret 2018, Mikkelsen 2022 (the method); own grid, hash and turn
 template <LaneScalar T>
-[[nodiscard]] SURFGRAD_HOST_DEVICE HexTiles<T> hex_tiles(vec2<T> st, value_t<T> rotation = value_t<T>(1),
-                                                         value_t<T> edge = value_t<T>(0.5)) {
+[[nodiscard]] SURFGRAD_HOST_DEVICE HexTiles<T>
+hex_tiles(vec2<T> st, value_t<T> rotation = value_t<T>(1), value_t<T> edge = value_t<T>(0.5),
+          vec2<value_t<T>> period = {value_t<T>(1), value_t<T>(1)}) {
   using Value = value_t<T>;
   const T zero = T(Value(0));
   const T one = T(Value(1));
@@ -96,8 +99,8 @@ template <LaneScalar T>
     const vec2<T> d{T(side) * (along_i + half * along_j),
                     T(side) * (constant<T>(0.86602540378443864676) * along_j)}; // sqrt(3) / 2
     // R d + centre = p + (R - 1) d: the centre is not needed, and without a turn p stays what it is.
-    const vec2<T> offset{unit * detail::bit_field<T>(shift, 0, 16),
-                         unit * detail::bit_field<T>(shift, 16, 16)};
+    const vec2<T> offset{T(period.x) * (unit * detail::bit_field<T>(shift, 0, 16)),
+                         T(period.y) * (unit * detail::bit_field<T>(shift, 16, 16))};
     tiles.st[tile] = p + rotate(d, vec2<T>{r.cos - one, r.sin}) + offset;
     tiles.weight[tile] = weight;
     tiles.rotation[tile] = {r.cos, r.sin};

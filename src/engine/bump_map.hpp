@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/texture.hpp"
-#include "image/height_map.hpp"
 
 namespace surfgrad::engine {
 
@@ -14,14 +13,17 @@ struct BumpMap {
 
 /// Derivative along the coordinates st of a bump map: slopes, dimensionless and independent of the
 /// tiling, or for heights (dh/ds, dh/dt) in units of the height, which the tiling multiplies.
+/// Heights are no steeper than 1e12 along either, so that no transform makes them infinite.
 template <LaneScalar T>
 [[nodiscard]] vec2<T> derivative(const BumpMap& bumps, vec2<T> st, vec2<T> footprint_dx,
                                  vec2<T> footprint_dy) {
-  const std::array<T, 2> texel = sample<2>(bumps.tiled, st, footprint_dx, footprint_dy);
-  const vec2<T> d{texel[0], texel[1]};
-  if (!bumps.heights) return along_coordinate(bumps.tiled, d);
-  const vec2<T> dh = image::mirrored_slope(map_coordinate(bumps.tiled, st), d, bumps.tiled.wrap);
-  return constant<T>(bumps.height) * by_coordinate(bumps.tiled, dh);
+  if (!bumps.heights)
+    return along_coordinate(bumps.tiled, sample_slopes(bumps.tiled, st, footprint_dx, footprint_dy));
+  const vec2<T> dh = sample_height_slopes(bumps.tiled, st, footprint_dx, footprint_dy);
+  const vec2<T> steep = constant<T>(bumps.height) * saturated(by_coordinate(bumps.tiled, dh));
+  // Vertical to rounding; multiplied by a scale of 1e12 and an inverse one it stays within float.
+  const T most = constant<T>(1e12);
+  return {min(most, max(-most, steep.x)), min(most, max(-most, steep.y))};
 }
 
 } // namespace surfgrad::engine

@@ -45,7 +45,9 @@ TiledMap Compiler::tiled(const stack::Tiled& use, std::shared_ptr<const image::M
           rotation_of(use.rotate_deg),
           use.offset,
           {wrap_of(use.wrap), wrap_of(use.wrap_t.value_or(use.wrap))},
-          filter_of(use.filter)};
+          filter_of(use.filter),
+          // A tile turns by at most hex_turn_deg either way.
+          use.tiling == stack::Tiling::hex ? std::optional(use.hex_turn_deg / 180) : std::nullopt};
 }
 
 Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image::Map> map) const {
@@ -55,8 +57,9 @@ Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image
   return {tiled(use, std::move(map)), slot};
 }
 
-BumpMap Compiler::bump_map(const stack::BumpMap& use, const stack::FileName& file) const {
-  switch (use.content) {
+BumpMap Compiler::bump_map(const stack::BumpCodes& use, stack::Content content,
+                           const stack::FileName& file) const {
+  switch (content) {
   case stack::Content::derivative:
     return {tiled(use, maps_.derivatives(file, use.derivative, use.green))};
   case stack::Content::height: {
@@ -69,11 +72,15 @@ BumpMap Compiler::bump_map(const stack::BumpMap& use, const stack::FileName& fil
   return {tiled(use, maps_.slopes(file, use.channels, use.green))};
 }
 
+vec2<double> Compiler::rotation(double degrees) { return rotation_of(degrees); }
+
 Influence Compiler::influence(const stack::LayerCommon& common) const {
-  Influence influence{common.scale, common.opacity, common.blend == stack::Blend::mix, std::nullopt};
-  if (common.mask)
-    influence.mask = texture(*common.mask, maps_.weights(common.mask->file, common.mask->channel));
-  return influence;
+  return {common.scale, common.opacity, common.blend == stack::Blend::mix, mask(common)};
+}
+
+std::optional<Texture> Compiler::mask(const stack::LayerWeight& common) const {
+  if (!common.mask) return std::nullopt;
+  return texture(*common.mask, maps_.weights(common.mask->file, common.mask->channel));
 }
 
 } // namespace surfgrad::engine

@@ -3,6 +3,8 @@
 #include "diagnostic/error.hpp"
 #include "image/height_map.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <string>
 
@@ -38,15 +40,20 @@ std::shared_ptr<const image::Map> MapLibrary::made_once(const std::string& kind,
   return map;
 }
 
+std::string MapLibrary::named_by(const stack::FileName& file) const {
+  if (file.line == 0) return file.key;
+  return "(named by " + document_.filename().string() + ":" + std::to_string(file.line) + ": " + file.key +
+         ")";
+}
+
 void MapLibrary::require_channels(const image::Image& image, int least, const stack::FileName& file,
                                   const char* what) const {
   // Opacity is no part of a vector: it does not count.
   const int channels = image.channels - (image.has_alpha ? 1 : 0);
   if (channels >= least) return;
-  const std::string namer = document_.filename().string() + ":" + std::to_string(file.line) + ": ";
   throw InputError(
       {.file = file.path,
-       .place = file.line > 0 ? "(named by " + namer + file.key + ")" : file.key,
+       .place = named_by(file),
        .problem = "has " + std::to_string(channels) + (channels == 1 ? " channel" : " channels"),
        .remedy = what + std::string(least == 3 ? " of x, y and z needs three" : " needs two or three")});
 }
@@ -97,11 +104,37 @@ std::shared_ptr<const image::Map> MapLibrary::directions(const stack::FileName& 
   });
 }
 
+std::shared_ptr<const image::CubeMap> MapLibrary::cube(const std::vector<stack::FileName>& files) {
+  std::vector<std::filesystem::path> paths;
+  for (const stack::FileName& file : files) paths.push_back(file.path);
+  auto& cube = cubes_[paths];
+  if (cube) return cube;
+  std::array<const image::Image*, 6> faces{};
+  for (std::size_t i = 0; i < files.size(); ++i) faces.at(i) = &find_(files[i].path);
+  auto made = files.size() == 1 ? image::make_cube_map(*faces[0]) : image::make_cube_map(faces);
+  if (const auto* fault = std::get_if<image::CubeFault>(&made)) {
+    const stack::FileName& file = files[static_cast<std::size_t>(std::max(fault->face, 0))];
+    throw InputError(
+        {.file = file.path, .place = named_by(file), .problem = fault->problem, .remedy = fault->remedy});
+  }
+  cube = std::make_shared<const image::CubeMap>(std::move(std::get<image::CubeMap>(made)));
+  return cube;
+}
+
 std::shared_ptr<const image::Map> MapLibrary::weights(const stack::FileName& file,
                                                       stack::MaskChannel channel) {
   return made_once("weights " + number_of(channel), file, [&](const image::Image& image) {
     return image::make_channel_map(image, static_cast<int>(channel));
   });
+}
+
+std::shared_ptr<const image::TwoSidedField> MapLibrary::relief(const stack::FileName& file,
+                                                               stack::MaskChannel channel) {
+  auto& relief = reliefs_[number_of(channel) + " " + file.path.string()];
+  if (!relief)
+    relief = std::make_shared<const image::TwoSidedField>(
+        image::make_two_sided_field(image::make_channel_map(find_(file.path), static_cast<int>(channel))));
+  return relief;
 }
 
 } // namespace surfgrad::engine

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "image/cube_map.hpp"
+#include "image/height_field.hpp"
 #include "image/image.hpp"
 #include "image/map.hpp"
 #include "image/sampler.hpp"
@@ -37,10 +39,14 @@ class MapLibrary {
   std::shared_ptr<const image::Map> heights(const stack::FileName& file, stack::MaskChannel channel);
   std::shared_ptr<const image::Map> height_slopes(const stack::FileName& file, stack::MaskChannel channel,
                                                   image::Wraps wraps);
+  /// A cube map of normals: one file of all faces, or six.
+  std::shared_ptr<const image::CubeMap> cube(const std::vector<stack::FileName>& files);
   /// An object- or world-space normal map as directions.
   std::shared_ptr<const image::Map> directions(const stack::FileName& file, stack::Green green);
   /// One channel as weights.
   std::shared_ptr<const image::Map> weights(const stack::FileName& file, stack::MaskChannel channel);
+  /// One channel as heights within [0, 1], made ready for rays.
+  std::shared_ptr<const image::TwoSidedField> relief(const stack::FileName& file, stack::MaskChannel channel);
 
   /// A normal map with texels that point into the surface (z <= 0), which no height field has.
   struct InwardTexels {
@@ -55,12 +61,16 @@ class MapLibrary {
   template <class Make>
   std::shared_ptr<const image::Map> made_once(const std::string& kind, const stack::FileName& file,
                                               const Make& make);
+  /// Who named a file, for a message about it.
+  [[nodiscard]] std::string named_by(const stack::FileName& file) const;
   void require_channels(const image::Image& image, int least, const stack::FileName& file,
                         const char* what) const;
 
   std::function<const image::Image&(const std::filesystem::path&)> find_;
   std::filesystem::path document_;
   std::map<std::string, std::shared_ptr<const image::Map>> maps_;
+  std::map<std::vector<std::filesystem::path>, std::shared_ptr<const image::CubeMap>> cubes_;
+  std::map<std::string, std::shared_ptr<const image::TwoSidedField>> reliefs_;
   std::vector<InwardTexels> inward_;
 };
 

@@ -65,25 +65,44 @@ template <Scalar T>
   return normalize_or_zero(transpose(in_lanes<T>(point.placement.linear)) * point.frame.normal);
 }
 
-/// A volume gradient in object space or world space brought to world space, so scaled that its part along
-/// the surface is the surface gradient of from_gradient_in_space.
+/// A volume gradient in object space or world space brought to world space, in units of a height along the
+/// base normal.
 template <Scalar T>
 [[nodiscard]] vec3<T> gradient_in_world(const Point<T>& point, bool world, vec3<T> gradient) {
   if (world) return gradient;
-  // transform_normal(M, N - G) for N = M^T n / |M^T n|, scaled so that its part along n is n itself.
+  // Gradients move by the inverse transpose; a height of 1 along N = M^T n / |M^T n| is one of
+  // dot(n, M N) = |M^T n| along n.
   const T stretch = length(transpose(in_lanes<T>(point.placement.linear)) * point.frame.normal);
   return saturated(stretch * (transpose(in_lanes<T>(point.placement.inverse_linear)) * gradient));
 }
 
 /// Surface gradient in world space of a volume gradient in object space or world space. An object-space
-/// bump follows the object: it is displaced there, then transformed (Golubev, equation 33). Linear in
-/// the gradient, and exact where the transform keeps angles; under others exact to first order in the
-/// gradient: the object's normal N becomes M N, of which only the part along n counts as height.
+/// bump follows the object's transform to first order: the object's normal N becomes M N, of which only the
+/// part along n counts as height. Linear in the gradient, so that gradients may be summed before.
 ///
 /// degenerate  a transform without inverse gives zero for gradients in object space
 template <Scalar T>
 [[nodiscard]] vec3<T> from_gradient_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
   return from_volume_gradient(point.frame.normal, gradient_in_world(point, world, gradient));
+}
+
+/// The same for a surface that is displaced in its space, then transformed: exact under every transform
+/// (Golubev, equation 33), but not linear in the gradient. The two are equal where the transform keeps
+/// angles.
+///
+/// degenerate  as above; where the transform leans a slope over, so that the normal lies below the surface,
+///             it is mirrored at the surface (listing 7)
+template <Scalar T>
+[[nodiscard]] vec3<T> from_displacement_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
+  const vec3<T> n = point.frame.normal;
+  const vec3<T> raw = gradient_in_world(point, world, gradient);
+  const vec3<T> g = from_volume_gradient(n, raw);
+  if (world) return g;
+  // The part of the transformed N - G along n: 1 where M N is upright. Flipped back faces turn both N and
+  // the height over.
+  const T lean = dot(normal_in_space(point, world), gradient) - dot(n, raw);
+  const T along = T(value_t<T>(1)) + point.frame.resolve_sign * lean;
+  return reciprocal_or_zero(max(abs(along), T(epsilon_v<T>) * max_abs(g))) * g;
 }
 
 } // namespace surfgrad::engine

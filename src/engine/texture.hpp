@@ -1,11 +1,15 @@
 #pragma once
 
+#include "image/height_map.hpp"
 #include "image/sampler.hpp"
 #include "raster/fragment.hpp"
 
+#include <surfgrad/hex_tiles.hpp>
 #include <surfgrad/screen.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace surfgrad::engine {
 
@@ -17,6 +21,8 @@ struct TiledMap {
   vec2<double> offset{0, 0};
   image::Wraps wrap{};
   image::Filter filter = image::Filter::trilinear;
+  /// Hex tiles instead of plain repetition: how far they turn, 0 to 1 (hex_tiles). Only with wrap repeat.
+  std::optional<double> hex_turn{};
 };
 
 /// A map laid on a texture coordinate of the surface.
@@ -74,21 +80,154 @@ template <Scalar T>
           constant<T>(tiled.tile.y) * (c * dh.y - s * dh.x)};
 }
 
-/// The map's components at a coordinate, filtered for a footprint.
+/// A part of the plane on which the map is shown: all of it, or one of the hex tiles over a point.
+template <class T>
+struct MapTile {
+  vec2<T> st;          ///< where the map is read
+  bool plain;          ///< uniform: the whole plane; st is st' and nothing is turned
+  vec2<T> rotation;    ///< cosine and sine: st turns by it as st' moves
+  vec2<double> period; ///< of the map in units of its shorter side: where its texels are square
+};
+
+/// A change of st' as a change of tile.st.
+template <Scalar T>
+[[nodiscard]] vec2<T> in_tile(const MapTile<T>& tile, vec2<T> change) {
+  if (tile.plain) return change;
+  const vec2<T> period{constant<T>(tile.period.x), constant<T>(tile.period.y)};
+  const vec2<T> inverse{constant<T>(1 / tile.period.x), constant<T>(1 / tile.period.y)};
+  return inverse * rotate(period * change, tile.rotation);
+}
+
+/// A derivative of a height by tile.st: its derivative by st'.
+template <Scalar T>
+[[nodiscard]] vec2<T> derivative_from_tile(const MapTile<T>& tile, vec2<T> dh) {
+  if (tile.plain) return dh;
+  const vec2<T> period{constant<T>(tile.period.x), constant<T>(tile.period.y)};
+  const vec2<T> inverse{constant<T>(1 / tile.period.x), constant<T>(1 / tile.period.y)};
+  return period * rotate_back(inverse * dh, tile.rotation);
+}
+
+/// The hex tiles over a point of the map's plane.
+template <class T>
+struct HexMapTiles {
+  HexTiles<T> hex; ///< in units of the map's shorter side
+  MapTile<T> tile[3];
+};
+
+/// st  st', as map_coordinate gives it
+template <LaneScalar T>
+[[nodiscard]] HexMapTiles<T> hex_map_tiles(const TiledMap& tiled, vec2<T> st) {
+  const double shorter = std::min(tiled.map->width(), tiled.map->height());
+  const vec2<double> period{tiled.map->width() / shorter, tiled.map->height() / shorter};
+  using Value = value_t<T>;
+  const vec2<Value> sides{static_cast<Value>(period.x), static_cast<Value>(period.y)};
+  HexMapTiles<T> tiles;
+  tiles.hex = hex_tiles(vec2<T>{T(sides.x), T(sides.y)} * st, static_cast<Value>(*tiled.hex_turn),
+                        static_cast<Value>(0.5), sides);
+  const vec2<T> inverse{constant<T>(1 / period.x), constant<T>(1 / period.y)};
+  for (int k = 0; k < 3; ++k)
+    tiles.tile[k] = {inverse * tiles.hex.st[k], false, tiles.hex.rotation[k], period};
+  return tiles;
+}
+
+/// Weights of tiles that do not depend on what they show.
+template <LaneScalar T>
+[[nodiscard]] vec3<T> weights_by_place(const HexTiles<T>& tiles) {
+  const T zero = T(value_t<T>(0));
+  return hex_weights(tiles, {{zero, zero}, {zero, zero}, {zero, zero}}, value_t<T>(7), value_t<T>(0));
+}
+
+/// The derivative of a height that a tiled map holds: that of the map itself, or blended from the hex
+/// tiles over the point. The weights go by place alone, so that a map's heights and their slopes are
+/// blended alike; they count as constant (hex_derivative).
+///
+/// st       st'
+/// of_tile  vec2<T>(const MapTile<T>&): the derivative in a tile by something that is no part of it, such
+///          as st' (derivative_from_tile) or the pixel (in_tile)
+template <LaneScalar T, class OfTile>
+[[nodiscard]] vec2<T> height_derivative(const TiledMap& tiled, vec2<T> st, const OfTile& of_tile) {
+  if (!tiled.hex_turn) {
+    const T one = T(value_t<T>(1));
+    return of_tile(MapTile<T>{st, true, {one, T(value_t<T>(0))}, {1, 1}});
+  }
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, st);
+  const vec3<T> w = weights_by_place(tiles.hex);
+  return w.x * of_tile(tiles.tile[0]) + w.y * of_tile(tiles.tile[1]) + w.z * of_tile(tiles.tile[2]);
+}
+
+/// The map's components where a coordinate st' or a tile reads it.
+template <int N, LaneScalar T>
+[[nodiscard]] std::array<T, N> sample_at(const TiledMap& tiled, vec2<T> st, T lod) {
+  const T one = T(value_t<T>(1));
+  return image::sample<N>(*tiled.map, st, lod, tiled.wrap, tiled.filter, mask_t<T>(one == one));
+}
+
+/// The components of a map of values at a coordinate, filtered for a footprint: weights, heights. What
+/// has a direction in the plane is turned with its tile: sample_slopes and sample_height_slopes.
 template <int N, LaneScalar T>
 [[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
                                       vec2<T> footprint_dy) {
+  // A tile turns where texels are square: the footprint's axes are as long in it.
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
-  const T one = T(value_t<T>(1));
-  return image::sample<N>(*tiled.map, map_coordinate(tiled, st), lod, tiled.wrap, tiled.filter,
-                          mask_t<T>(one == one));
+  const vec2<T> here = map_coordinate(tiled, st);
+  if (!tiled.hex_turn) return sample_at<N>(tiled, here, lod);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
+  const vec3<T> w = weights_by_place(tiles.hex);
+  const std::array<T, N> a = sample_at<N>(tiled, tiles.tile[0].st, lod);
+  const std::array<T, N> b = sample_at<N>(tiled, tiles.tile[1].st, lod);
+  const std::array<T, N> c = sample_at<N>(tiled, tiles.tile[2].st, lod);
+  std::array<T, N> blend;
+  for (int i = 0; i < N; ++i) blend[i] = w.x * a[i] + w.y * b[i] + w.z * c[i];
+  return blend;
 }
 
-/// The map's components under the fragment, filtered for its footprint.
+/// The slopes of a map of slopes along st' (along_coordinate takes them to st). Of hex tiles the steeper
+/// prevail.
+template <LaneScalar T>
+[[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
+                                    vec2<T> footprint_dy) {
+  const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
+  const vec2<T> here = map_coordinate(tiled, st);
+  const auto slope = [&](vec2<T> at) {
+    const std::array<T, 2> texel = sample_at<2>(tiled, at, lod);
+    return vec2<T>{texel[0], texel[1]};
+  };
+  if (!tiled.hex_turn) return slope(here);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
+  const vec2<T> slopes[3] = {slope(tiles.tile[0].st), slope(tiles.tile[1].st), slope(tiles.tile[2].st)};
+  return hex_derivative(tiles.hex, hex_weights(tiles.hex, slopes), slopes);
+}
+
+/// Where a coordinate st' or a tile reads a map of derivatives of heights: the derivative by that.
+template <LaneScalar T>
+[[nodiscard]] vec2<T> slope_of_heights(const TiledMap& tiled, vec2<T> st, T lod) {
+  const std::array<T, 2> texel = sample_at<2>(tiled, st, lod);
+  return image::mirrored_slope(st, vec2<T>{texel[0], texel[1]}, tiled.wrap);
+}
+
+/// The derivative by st' of the heights whose derivatives by the whole map `tiled` holds (by_coordinate
+/// takes it to st).
+template <LaneScalar T>
+[[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
+                                           vec2<T> footprint_dy) {
+  const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
+  return height_derivative(tiled, map_coordinate(tiled, st), [&](const MapTile<T>& tile) {
+    return derivative_from_tile(tile, slope_of_heights(tiled, tile.st, lod));
+  });
+}
+
+/// The components of a map of values under the fragment, filtered for its footprint.
 template <int N, LaneScalar T>
 [[nodiscard]] std::array<T, N> sample(const Texture& texture, const raster::Fragment<T>& fragment) {
   const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(texture.slot)];
   return sample<N>(texture.tiled, uv.st, uv.footprint_dx, uv.footprint_dy);
+}
+
+/// The slopes under the fragment of a map of slopes, along st'.
+template <LaneScalar T>
+[[nodiscard]] vec2<T> sample_slopes(const Texture& texture, const raster::Fragment<T>& fragment) {
+  const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(texture.slot)];
+  return sample_slopes(texture.tiled, uv.st, uv.footprint_dx, uv.footprint_dy);
 }
 
 } // namespace surfgrad::engine

@@ -80,4 +80,11 @@ HeightField make_height_field(Map heights) {
   return field;
 }
 
+TwoSidedField make_two_sided_field(Map heights) {
+  Map depths = heights;
+  for (std::uint32_t& word : depths.words)
+    word = std::bit_cast<std::uint32_t>(1.0f - std::bit_cast<float>(word));
+  return {make_height_field(std::move(heights)), make_height_field(std::move(depths))};
+}
+
 } // namespace surfgrad::image

@@ -33,10 +33,17 @@ struct HeightField {
   }
 };
 
+/// A height field for rays from either side of the surface.
+struct TwoSidedField {
+  HeightField from_above{};
+  HeightField from_below{}; ///< of the depths 1 - h, which are heights to whoever looks from there
+};
+
 /// A map is no wider or higher than this: all cell numbers that a ray meets are then exact in float.
 inline constexpr int height_field_most_texels = 1 << 20;
 
 /// heights  one component within [0, 1] (make_channel_map), at most height_field_most_texels a side
 [[nodiscard]] HeightField make_height_field(Map heights);
+[[nodiscard]] TwoSidedField make_two_sided_field(Map heights);
 
 } // namespace surfgrad::image

@@ -6,6 +6,8 @@
 /// reference that vector packs are compared with. Every operation is the one-lane operation of the
 /// core's scalar, lane by lane.
 
+#include "simd/lane.hpp"
+
 #include <array>
 #include <bit>
 #include <surfgrad/scalar.hpp>
@@ -109,6 +111,7 @@ select(const EmulatedMask& m, const EmulatedLanes<Value, Tag>& a, const Emulated
 [[nodiscard]] constexpr EmulatedFloat max(const EmulatedFloat& a, const EmulatedFloat& b) {
   return detail::each_lane<EmulatedFloat>([](float x, float y) { return surfgrad::max(x, y); }, a, b);
 }
+[[nodiscard]] constexpr float lane(const EmulatedFloat& a, int i) { return a.lane[i]; }
 /// Truncates; saturates; NaN gives 0.
 [[nodiscard]] constexpr EmulatedIndex to_index(const EmulatedFloat& a) {
   return detail::each_lane<EmulatedIndex>([](float x) { return surfgrad::to_index(x); }, a);
@@ -137,5 +140,8 @@ struct lanes_of<simd::EmulatedFloat> {
 };
 
 static_assert(LaneScalar<simd::EmulatedFloat>);
+
+template <>
+inline constexpr int lane_count<simd::EmulatedFloat> = simd::emulated_width;
 
 } // namespace surfgrad

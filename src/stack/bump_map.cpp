@@ -9,15 +9,38 @@ namespace surfgrad::stack {
 namespace {
 
 /// A key that says nothing about this content is a slip.
-void require_content(const BumpMap& map, const Value& value, std::string_view key,
-                     std::initializer_list<Content> contents) {
+template <class Word>
+void require_content(Word content, const Value& value, std::string_view key,
+                     std::initializer_list<Word> contents) {
   const Member* member = value.find(key);
-  if (member == nullptr || std::find(contents.begin(), contents.end(), map.content) != contents.end()) return;
+  if (member == nullptr || std::find(contents.begin(), contents.end(), content) != contents.end()) return;
   std::string words;
-  for (const auto& word : words_of<Content>)
+  for (const auto& word : words_of<Word>)
     if (std::find(contents.begin(), contents.end(), word.value) != contents.end())
       words += (words.empty() ? "" : " or ") + quote(word.text);
   value.member(*member).fail("does not apply to this content", "leave it out, or give \"content\": " + words);
+}
+
+template <class Word>
+void check_keys(Word content, const Value& value) {
+  require_content(content, value, "channels", {Word::normal});
+  if constexpr (requires { Word::object_normal; })
+    require_content(content, value, "green", {Word::normal, Word::derivative, Word::object_normal});
+  else
+    require_content(content, value, "green", {Word::normal, Word::derivative});
+  require_content(content, value, "range", {Word::derivative});
+  require_content(content, value, "neutral", {Word::derivative});
+  require_content(content, value, "height_channel", {Word::height});
+  require_content(content, value, "height", {Word::height});
+}
+
+/// The table of a map that has a content of its own beside the codes.
+template <class Map>
+Fields<Map> with_content() {
+  return Fields<Map>()
+      .word("content", &Map::content)
+      .template base<BumpCodes>()
+      .finally([](Map& map, const Value& value) { check_keys(map.content, value); });
 }
 
 } // namespace
@@ -29,24 +52,24 @@ const Fields<DerivativeCode>& DerivativeCode::fields() {
   return table;
 }
 
+const Fields<BumpCodes>& BumpCodes::fields() {
+  static const auto table = Fields<BumpCodes>()
+                                .base<Tiled>()
+                                .word("channels", &BumpCodes::channels)
+                                .word("green", &BumpCodes::green)
+                                .part(&BumpCodes::derivative)
+                                .word("height_channel", &BumpCodes::height_channel)
+                                .number("height", &BumpCodes::height);
+  return table;
+}
+
 const Fields<BumpMap>& BumpMap::fields() {
-  static const auto table =
-      Fields<BumpMap>()
-          .word("content", &BumpMap::content)
-          .base<Tiled>()
-          .word("channels", &BumpMap::channels)
-          .word("green", &BumpMap::green)
-          .part(&BumpMap::derivative)
-          .word("height_channel", &BumpMap::height_channel)
-          .number("height", &BumpMap::height)
-          .finally([](BumpMap& map, const Value& value) {
-            require_content(map, value, "channels", {Content::normal});
-            require_content(map, value, "green", {Content::normal, Content::derivative});
-            require_content(map, value, "range", {Content::derivative});
-            require_content(map, value, "neutral", {Content::derivative});
-            require_content(map, value, "height_channel", {Content::height});
-            require_content(map, value, "height", {Content::height});
-          });
+  static const auto table = with_content<BumpMap>();
+  return table;
+}
+
+const Fields<TriplanarMap>& TriplanarMap::fields() {
+  static const auto table = with_content<TriplanarMap>();
   return table;
 }
 

@@ -129,6 +129,12 @@ int read_integer(const Value& value, const Shape& shape) {
   return static_cast<int>(number);
 }
 
+bool read_truth(const Value& value, const Shape& shape) {
+  const auto* truth = std::get_if<bool>(&value.node.value);
+  if (truth == nullptr) value.reject(expectation(shape));
+  return *truth;
+}
+
 std::size_t read_word(const Value& value, const Shape& shape) {
   const std::string* text = std::get_if<std::string>(&value.node.value);
   if (text == nullptr) value.reject(expectation(shape));
@@ -152,6 +158,18 @@ FileName read_file(const Value& value, const Shape& shape) {
   return {.path = std::filesystem::path(std::u8string(text.begin(), text.end())),
           .line = value.node.line,
           .key = value.key};
+}
+
+std::vector<FileName> read_files(const Value& value, const Shape& shape) {
+  const Shape one{.kind = Shape::Kind::file};
+  if (std::holds_alternative<std::string>(value.node.value)) return {read_file(value, one)};
+  const auto* elements = std::get_if<std::vector<Node>>(&value.node.value);
+  if (elements == nullptr || std::find(shape.counts.begin(), shape.counts.end(),
+                                       static_cast<int>(elements->size())) == shape.counts.end())
+    value.reject(expectation(shape));
+  std::vector<FileName> files;
+  for (std::size_t i = 0; i < elements->size(); ++i) files.push_back(read_file(value.element(i), one));
+  return files;
 }
 
 std::vector<double> read_vector(const Value& value, const Shape& shape) {

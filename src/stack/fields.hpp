@@ -35,9 +35,11 @@ struct Value {
 // Readers of one value; each throws InputError at it unless it fits the shape.
 [[nodiscard]] double read_number(const Value& value, const Shape& shape);
 [[nodiscard]] int read_integer(const Value& value, const Shape& shape);
+[[nodiscard]] bool read_truth(const Value& value, const Shape& shape);
 [[nodiscard]] std::size_t read_word(const Value& value, const Shape& shape); ///< index into shape.words
 [[nodiscard]] std::string read_text(const Value& value, const Shape& shape);
 [[nodiscard]] FileName read_file(const Value& value, const Shape& shape);
+[[nodiscard]] std::vector<FileName> read_files(const Value& value, const Shape& shape); ///< one or all
 [[nodiscard]] std::vector<double> read_vector(const Value& value, const Shape& shape);
 
 [[nodiscard]] std::vector<double> read_numbers(const Value& value, const Shape& shape);
@@ -59,7 +61,9 @@ void read_object(const Value& value, T& target);
 template <class T>
 class Fields {
  public:
-  Fields&& number(std::string_view key, double T::*member, Range range = {}) && {
+  /// Member: double, or an optional one.
+  template <class Member>
+  Fields&& number(std::string_view key, Member T::*member, Range range = {}) && {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::number, .range = range},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_number(value, shape); });
@@ -68,6 +72,11 @@ class Fields {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::integer, .range = range},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_integer(value, shape); });
+  }
+  Fields&& truth(std::string_view key, bool T::*member) && {
+    return std::move(*this).add(
+        key, {.kind = Shape::Kind::truth},
+        [=](T& t, const Value& value, const Shape& shape) { t.*member = read_truth(value, shape); });
   }
   /// Member: an enumeration with words, or an optional one.
   template <class Member>
@@ -85,6 +94,12 @@ class Fields {
     return std::move(*this).add(
         key, {.kind = Shape::Kind::file},
         [=](T& t, const Value& value, const Shape& shape) { t.*member = read_file(value, shape); });
+  }
+  /// One file, or as many as one of `counts`.
+  Fields&& files(std::string_view key, std::vector<FileName> T::*member, std::vector<int> counts) && {
+    return std::move(*this).add(
+        key, {.kind = Shape::Kind::files, .counts = std::move(counts)},
+        [=](T& t, const Value& value, const Shape& shape) { t.*member = read_files(value, shape); });
   }
   Fields&& vector(std::string_view key, vec2<double> T::*member) && {
     return std::move(*this).add(key, {.kind = Shape::Kind::vector, .components = 2},
@@ -142,6 +157,13 @@ class Fields {
   template <class Part>
   Fields&& part(Part T::*member) && {
     return std::move(*this).template include<Part>([=](T& t) -> Part& { return t.*member; });
+  }
+  /// The keys of whatever `access` gives, in the same object.
+  ///
+  /// access  Part&(T&)
+  template <class Part, class Access>
+  Fields&& part(Access access) && {
+    return std::move(*this).template include<Part>(access);
   }
   /// Leaves out a key of a base class or a member that means nothing here.
   Fields&& without(std::string_view key) && {

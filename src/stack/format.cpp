@@ -26,20 +26,28 @@ std::string expectation(const Shape& shape) {
     return "a number" + limits(shape.range);
   case Shape::Kind::integer:
     return "a whole number" + limits(shape.range);
+  case Shape::Kind::truth:
+    return "true or false";
   case Shape::Kind::word:
     return fmt::format("{}{}", shape.words.size() > 1 ? "one of: " : "", fmt::join(shape.words, ", "));
   case Shape::Kind::text:
     return "a string";
   case Shape::Kind::file:
     return "a file name";
+  case Shape::Kind::files:
+    return fmt::format("a file name or an array of {} file names", fmt::join(shape.counts, " or "));
   case Shape::Kind::vector:
     return fmt::format("an array of {} numbers", shape.components);
   case Shape::Kind::numbers:
     return "an array of numbers";
   case Shape::Kind::tile:
     return "a number or an array of 2 numbers, none of them zero";
+  case Shape::Kind::size:
+    return "a number or an array of 3 numbers, all of them greater than 0";
   case Shape::Kind::object:
     return "an object";
+  case Shape::Kind::objects:
+    return "an array of objects";
   case Shape::Kind::layers:
     return "an array of layers";
   case Shape::Kind::materials:

@@ -24,13 +24,17 @@ struct Shape {
   enum class Kind {
     number,    ///< one number within `range`
     integer,   ///< the same, whole
+    truth,     ///< true or false
     word,      ///< one of `words`
     text,      ///< any string
     file,      ///< a file name
+    files,     ///< a file name, or an array of as many as one of `counts`
     vector,    ///< an array of `components` numbers
     numbers,   ///< an array of any number of numbers
     tile,      ///< one number or an array of two, none of them zero
+    size,      ///< one number or an array of three, each greater than 0
     object,    ///< an object of the format named `object`
+    objects,   ///< an array of such objects
     layers,    ///< an array of layers
     materials, ///< an object whose every value is an array of layers
   };
@@ -38,6 +42,7 @@ struct Shape {
   Range range{};
   std::vector<std::string_view> words{};
   int components = 0;
+  std::vector<int> counts{};
   std::string_view object{};
 };
 

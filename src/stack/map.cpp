@@ -22,7 +22,24 @@ void read_tile(Tiled& tiled, const Value& value, const Shape& shape) {
   }
 }
 
+/// Hex tiles show a map beyond its borders, which must therefore continue across them.
+void check_tiling(Tiled& tiled, const Value& value) {
+  const Member* wrap = value.find("wrap");
+  if (tiled.tiling == Tiling::hex && tiled.wrap != Wrap::repeat && wrap != nullptr)
+    value.member(*wrap).fail("does not go with hex tiling", R"(expected "repeat", or no "tiling")");
+  const Member* turn = value.find("hex_turn");
+  if (tiled.tiling != Tiling::hex && turn != nullptr)
+    value.member(*turn).fail("does not apply to plain tiling", R"(leave it out, or give "tiling": "hex")");
+}
+
 } // namespace
+
+void refuse_hex_tiling(const Tiled& tiled, const Value& value) {
+  if (tiled.tiling != Tiling::hex) return;
+  value.member(*value.find("tiling"))
+      .fail("is \"hex\", but whole normals do not turn with the tiles of a map",
+            "leave it out, or give a tangent-space map");
+}
 
 const Fields<Tiled>& Tiled::fields() {
   static const auto table = Fields<Tiled>()
@@ -30,7 +47,10 @@ const Fields<Tiled>& Tiled::fields() {
                                 .number("rotate", &Tiled::rotate_deg)
                                 .vector("offset", &Tiled::offset)
                                 .word("wrap", &Tiled::wrap)
-                                .word("filter", &Tiled::filter);
+                                .word("filter", &Tiled::filter)
+                                .word("tiling", &Tiled::tiling)
+                                .number("hex_turn", &Tiled::hex_turn_deg, {.least = 0, .most = 180})
+                                .finally(check_tiling);
   return table;
 }
 

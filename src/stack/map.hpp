@@ -12,6 +12,7 @@ namespace surfgrad::stack {
 
 template <class T>
 class Fields;
+struct Value;
 
 /// A file a document names, and where it names it, for the message if it cannot be read.
 struct FileName {
@@ -30,9 +31,14 @@ struct Tiled {
   /// Along t where it differs: a model's sampler can say so, a document has one word for both axes.
   std::optional<Wrap> wrap_t{};
   Filter filter = Filter::trilinear;
+  Tiling tiling = Tiling::plain; ///< hex only with Wrap::repeat
+  double hex_turn_deg = 180;     ///< 0 to 180: hex tiles turn at random by up to this, either way
 
   static const Fields<Tiled>& fields();
 };
+
+/// Refuses hex tiling: for maps of whole normals, which do not turn with the plane they lie on.
+void refuse_hex_tiling(const Tiled& tiled, const Value& value);
 
 /// A 2D map on a texture coordinate of the mesh.
 struct Texture : Tiled {

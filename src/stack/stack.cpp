@@ -11,13 +11,21 @@ namespace {
 /// What the parser needs of a layer kind, whichever it is.
 struct Kind {
   std::string_view type;
+  bool opens_pass; ///< comes first in a list, or directly after a resolve
   Layer (*read)(const Value&);
   ObjectFormat (*format)();
 };
 
+template <class K>
+constexpr bool opens_pass() {
+  if constexpr (requires { K::opens_pass; }) return true;
+  return false;
+}
+
 template <class... Kinds>
 std::vector<Kind> kinds_of(const std::variant<Kinds...>*) {
   return {Kind{.type = Kinds::type,
+               .opens_pass = opens_pass<Kinds>(),
                .read =
                    [](const Value& value) {
                      Kinds layer;
@@ -32,18 +40,25 @@ const std::vector<Kind>& kinds() {
   return table;
 }
 
-Layer read_layer(const Value& value) {
+const Kind& kind_of(const Value& value) {
   Shape types{.kind = Shape::Kind::word};
   for (const Kind& kind : kinds()) types.words.push_back(kind.type);
   const Member* type = value.find("type");
   if (type == nullptr) value.fail(R"(lacks "type")", "expected \"type\": " + expectation(types));
-  return kinds()[read_word(value.member(*type), types)].read(value);
+  return kinds()[read_word(value.member(*type), types)];
 }
 
 std::vector<Layer> read_layers(const Value& value) {
   std::vector<Layer> layers;
   const std::size_t count = value.elements().size();
-  for (std::size_t i = 0; i < count; ++i) layers.push_back(read_layer(value.element(i)));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Value element = value.element(i);
+    const Kind& kind = kind_of(element);
+    if (kind.opens_pass && i > 0 && !std::holds_alternative<ResolveLayer>(layers.back()))
+      element.fail(fmt::format("{} follows another layer in its pass", quote(kind.type)),
+                   R"(put it first in the list, or a layer { "type": "resolve" } right before it)");
+    layers.push_back(kind.read(element));
+  }
   return layers;
 }
 
@@ -107,9 +122,11 @@ std::vector<ObjectFormat> document_format() {
                                     Mask::fields().format(Mask::format_name),
                                     Displace::fields().format(Displace::format_name),
                                     DisplacementMap::fields().format(DisplacementMap::format_name),
+                                    Convention::fields().format(Convention::format_name),
                                     Camera::fields().format(Camera::format_name),
                                     Lights::fields().format(Lights::format_name),
-                                    Sun::fields().format(Sun::format_name)};
+                                    Sun::fields().format(Sun::format_name),
+                                    DecalInstance::fields().format(DecalInstance::format_name)};
   for (const Kind& kind : kinds()) objects.push_back(kind.format());
   return objects;
 }

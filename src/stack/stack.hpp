@@ -4,10 +4,16 @@
 /// docs/stack-format.md describes the document, docs/stack.schema.json is its schema.
 
 #include "stack/displace.hpp"
+#include "stack/layers/decal.hpp"
+#include "stack/layers/derivative_map.hpp"
+#include "stack/layers/height_map.hpp"
 #include "stack/layers/noise.hpp"
 #include "stack/layers/normal_map.hpp"
 #include "stack/layers/object_normal_map.hpp"
+#include "stack/layers/parallax.hpp"
+#include "stack/layers/planar.hpp"
 #include "stack/layers/resolve.hpp"
+#include "stack/layers/triplanar.hpp"
 #include "stack/view.hpp"
 
 #include <map>
@@ -17,7 +23,8 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer = std::variant<NormalMapLayer, ObjectNormalMapLayer, NoiseLayer, ResolveLayer>;
+using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer,
+                           NoiseLayer, PlanarLayer, TriplanarLayer, DecalLayer, ParallaxLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

@@ -9,6 +9,9 @@ std::vector<FileName*> files_of(Layer& layer) {
   std::visit(
       [&](auto& kind) {
         if constexpr (requires { kind.map.file; }) files.push_back(&kind.map.file);
+        if constexpr (requires { kind.file; }) files.push_back(&kind.file);
+        if constexpr (requires { kind.files; })
+          for (FileName& file : kind.files) files.push_back(&file);
         if constexpr (requires { kind.common.mask; })
           if (kind.common.mask) files.push_back(&kind.common.mask->file);
       },

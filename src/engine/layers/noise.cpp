@@ -11,7 +11,7 @@ VolumeNoise compiled(const stack::NoiseLayer& layer, const Compiler& compiler) {
                     layer.common.scale,
                     layer.space == stack::Space::world,
                     layer.method == stack::NoiseMethod::perlin1985};
-  noise.influence.scale = 1; // perlin1985 is not linear in the gradient: it must know the scaled one
+  noise.influence.scale = 1; // the kernel scales the gradient itself
   return noise;
 }
 

@@ -11,7 +11,7 @@ namespace surfgrad::engine {
 
 /// A function of space whose value is a height over the surface.
 struct VolumeNoise {
-  /// Its scale is 1: what the function's gradient is scaled by is below.
+  /// Its scale is 1: neither method is linear in the gradient, so the scale below applies before them.
   Influence influence{};
   stack::NoiseFunction noise{};
   std::optional<stack::VolumeFunction> custom{}; ///< in place of noise
@@ -57,9 +57,10 @@ template <LaneScalar T>
   const mask_t<T> none = absent | untransformable;
   degenerate = degenerate | none;
   const vec3<T> scaled = constant<T>(layer.scale) * select<T>(none, vec3<T>{zero, zero, zero}, g);
-  const vec3<T> raw = gradient_in_world(point, layer.world, detail::limited_slope(scaled));
+  const vec3<T> slope = detail::limited_slope(scaled);
+  if (!layer.perlin1985) return from_displacement_in_space(point, layer.world, slope);
   const vec3<T> n = point.frame.normal;
-  return layer.perlin1985 ? from_perturbed_normal(n, n - raw) : from_volume_gradient(n, raw);
+  return from_perturbed_normal(n, n - gradient_in_world(point, layer.world, slope));
 }
 
 } // namespace surfgrad::engine

@@ -6,7 +6,7 @@
 
 namespace surfgrad::engine {
 
-/// A tangent-space normal map, stored as slopes.
+/// A tangent-space normal map or a derivative map: both are stored as slopes.
 struct NormalMap {
   Influence influence{};
   Texture texture{};
@@ -50,7 +50,7 @@ template <Scalar T>
   return {select<T>(collapsed, none, basis.tangent), select<T>(collapsed, none, basis.bitangent)};
 }
 
-/// Surface gradient of a tangent-space normal map at a point.
+/// Surface gradient of a tangent-space normal map or a derivative map at a point.
 ///
 /// degenerate   (out) set where the texture coordinate or the vertex frame has collapsed; the
 ///              gradient is zero there
@@ -59,9 +59,8 @@ template <LaneScalar T>
   mask_t<T> collapsed;
   const TangentFrame<T> basis = frame_of(point, layer.texture.slot, layer.derived, collapsed);
   degenerate = degenerate | collapsed;
-  const std::array<T, 2> slope = sample<2>(layer.texture, point.fragment);
-  return from_tbn(along_coordinate(layer.texture.tiled, vec2<T>{slope[0], slope[1]}), basis.tangent,
-                  basis.bitangent);
+  const vec2<T> slope = sample_slopes(layer.texture, point.fragment);
+  return from_tbn(along_coordinate(layer.texture.tiled, slope), basis.tangent, basis.bitangent);
 }
 
 } // namespace surfgrad::engine

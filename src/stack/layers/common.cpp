@@ -4,16 +4,20 @@
 
 namespace surfgrad::stack {
 
-const Fields<LayerCommon>& LayerCommon::fields() {
-  static const auto table = Fields<LayerCommon>()
-                                .number("scale", &LayerCommon::scale)
-                                .object("mask", &LayerCommon::mask)
-                                .number("opacity", &LayerCommon::opacity, {.least = 0, .most = 1})
-                                .word("blend", &LayerCommon::blend)
-                                .finally([](LayerCommon& common, const Value& value) {
+const Fields<LayerWeight>& LayerWeight::fields() {
+  static const auto table = Fields<LayerWeight>()
+                                .number("scale", &LayerWeight::scale)
+                                .object("mask", &LayerWeight::mask)
+                                .number("opacity", &LayerWeight::opacity, {.least = 0, .most = 1})
+                                .finally([](LayerWeight& common, const Value& value) {
                                   common.line = value.node.line;
                                   common.key = value.key;
                                 });
+  return table;
+}
+
+const Fields<LayerCommon>& LayerCommon::fields() {
+  static const auto table = Fields<LayerCommon>().base<LayerWeight>().word("blend", &LayerCommon::blend);
   return table;
 }
 

@@ -9,7 +9,10 @@ const Fields<ObjectNormalMapLayer>& ObjectNormalMapLayer::fields() {
                                 .type(type)
                                 .part(&ObjectNormalMapLayer::map)
                                 .word("space", &ObjectNormalMapLayer::space)
-                                .part(&ObjectNormalMapLayer::common);
+                                .part(&ObjectNormalMapLayer::common)
+                                .finally([](ObjectNormalMapLayer& layer, const Value& value) {
+                                  refuse_hex_tiling(layer.map, value);
+                                });
   return table;
 }
 

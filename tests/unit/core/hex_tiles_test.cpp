@@ -54,7 +54,7 @@ struct DefinedTile {
   Real weight;
   vec2<Real> rotation;
 };
-DefinedTile define_tile(vec2<Real> st, int i, int j, Real strength, Real edge) {
+DefinedTile define_tile(vec2<Real> st, int i, int j, Real strength, Real edge, vec2<Real> period) {
   const Real height = std::sqrt(0.75L); // of a triangle of side 1
   const vec2<Real> centre{edge * (i + 0.5L * j), edge * height * j};
   const vec2<Real> d = st - centre;
@@ -64,7 +64,7 @@ DefinedTile define_tile(vec2<Real> st, int i, int j, Real strength, Real edge) {
     farthest = std::max(farthest, std::abs(dot(d, facing)));
   const std::uint32_t shift = lattice_hash<double>(i, j, 0);
   const std::uint32_t turn = lattice_hash<double>(i, j, 1);
-  const vec2<Real> offset{(shift & 0xffffu) / 65536.0L, (shift >> 16) / 65536.0L};
+  const vec2<Real> offset{period.x * (shift & 0xffffu) / 65536.0L, period.y * (shift >> 16) / 65536.0L};
   const Real angle = strength * ((turn & 0xffffu) / 65536.0L - 0.5L) * 2 * std::numbers::pi_v<Real>;
   const vec2<Real> r{std::cos(angle), std::sin(angle)};
   const vec2<Real> turned{r.x * d.x - r.y * d.y, r.y * d.x + r.x * d.y};
@@ -88,7 +88,8 @@ TYPED_TEST(HexTiling, TilesAreThoseOfTheDefinition) {
     const T edge = static_cast<T>(random.magnitude(0.1, 10));
     const double extent = random.magnitude(0.1, 1000);
     const vec2<T> st = narrow<T>(random.vector2(-extent, extent));
-    const HexTiles<T> tiles = hex_tiles(st, strength, edge);
+    const vec2<T> period{static_cast<T>(random.uniform(0.1, 3)), static_cast<T>(random.uniform(0.1, 3))};
+    const HexTiles<T> tiles = hex_tiles(st, strength, edge, period);
     const vec2<Real> p{st.x, st.y};
     const double size = length(widen(st));
     const double weight_bound = 4 * eps * (1 + size / double(edge));
@@ -97,7 +98,7 @@ TYPED_TEST(HexTiling, TilesAreThoseOfTheDefinition) {
     for (int j = middle_j - 2; j <= middle_j + 2; ++j) {
       const int middle_i = static_cast<int>(std::round(p.x / edge - 0.5L * j));
       for (int i = middle_i - 2; i <= middle_i + 2; ++i) {
-        const DefinedTile defined = define_tile(p, i, j, strength, edge);
+        const DefinedTile defined = define_tile(p, i, j, strength, edge, {period.x, period.y});
         if (defined.weight <= weight_bound) continue; // rounding may choose the triangle beyond
         const vec2<double> expected = widen(defined.st);
         const vec2<double> turn = widen(defined.rotation);
@@ -108,7 +109,8 @@ TYPED_TEST(HexTiling, TilesAreThoseOfTheDefinition) {
         int slot = distance(1) < distance(0) ? 1 : 0;
         if (distance(2) < distance(slot)) slot = 2;
         weight.add(double(tiles.weight[slot]), double(defined.weight), weight_bound, n);
-        coordinate.add(widen(tiles.st[slot]), expected, 4 * eps * (size + double(edge) + 1), n);
+        coordinate.add(widen(tiles.st[slot]), expected,
+                       4 * eps * (size + double(edge) + length(widen(period))), n);
         rotation.add(widen(tiles.rotation[slot]), turn, 2 * eps, n);
       }
     }

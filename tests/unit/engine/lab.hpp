@@ -40,10 +40,61 @@ inline stack::NormalMapLayer normal_layer(const char* map, int uv = 0,
   return layer;
 }
 
+inline stack::DerivativeMapLayer derivative_layer(const char* map, int uv = 0,
+                                                  stack::Basis basis = stack::Basis::mikktspace) {
+  stack::DerivativeMapLayer layer;
+  layer.map.file.path = map;
+  layer.map.uv = uv;
+  layer.basis = basis;
+  return layer;
+}
+
+inline stack::HeightMapLayer height_layer(const char* map, double height = 1,
+                                          stack::HeightMode mode = stack::HeightMode::physical) {
+  stack::HeightMapLayer layer;
+  layer.map.file.path = map;
+  layer.height = height;
+  layer.mode = mode;
+  return layer;
+}
+
 inline stack::ObjectNormalMapLayer object_layer(const char* map, stack::Space space = stack::Space::object) {
   stack::ObjectNormalMapLayer layer;
   layer.map.file.path = map;
   layer.space = space;
+  return layer;
+}
+
+inline stack::PlanarLayer planar_layer(const char* map, PlaneAxis axis,
+                                       stack::Content content = stack::Content::normal) {
+  stack::PlanarLayer layer;
+  layer.file.path = map;
+  layer.axis = axis;
+  layer.map.content = content;
+  return layer;
+}
+
+/// maps  one for every plane, or one for each
+inline stack::TriplanarLayer
+triplanar_layer(const std::vector<const char*>& maps,
+                stack::TriplanarContent content = stack::TriplanarContent::normal) {
+  stack::TriplanarLayer layer;
+  for (const char* map : maps) layer.files.push_back({map});
+  layer.map.content = content;
+  return layer;
+}
+
+inline stack::DecalLayer decal_layer(const char* map, stack::DecalShape shape = stack::DecalShape::box) {
+  stack::DecalLayer layer;
+  layer.files = {{.path = map}};
+  layer.shape = shape;
+  return layer;
+}
+
+inline stack::ParallaxLayer parallax_layer(const char* map, double height) {
+  stack::ParallaxLayer layer;
+  layer.map.file.path = map;
+  layer.height = height;
   return layer;
 }
 
@@ -125,7 +176,53 @@ inline std::vector<stack::Layer> one_of_each(Lab& lab, Random& random) {
   e.noise.frequency = 3;
   e.noise.power = 2;
   e.common.scale = 0.2;
-  return {normal_layer("a"), b, c, d, e};
+  lab.add("slopes", surfgrad::test::random_image(random, 8, 8, 2));
+  lab.add("heights", surfgrad::test::random_image(random, 16, 8, 1));
+  stack::HeightMapLayer smooth = height_layer("heights", 0.02);
+  smooth.taps = stack::Taps::bicubic;
+  smooth.map.wrap = stack::Wrap::mirror;
+  stack::HeightMapLayer of_object = height_layer("heights", -0.02);
+  of_object.units = stack::Units::object;
+  of_object.taps = stack::Taps::one;
+  of_object.map.uv = 1;
+  stack::HeightMapLayer scale_free = height_layer("heights", 0.02, stack::HeightMode::scale_free);
+  scale_free.taps = stack::Taps::bicubic;
+  scale_free.map.wrap = stack::Wrap::mirror;
+  stack::PlanarLayer planar = planar_layer("a", PlaneAxis::y, stack::Content::height);
+  planar.space = stack::Space::world;
+  planar.map.height = 0.05;
+  planar.map.tile = {2, -1};
+  stack::TriplanarLayer triplanar = triplanar_layer({"a", "b", "d"});
+  triplanar.common.mask = mask_of("mask");
+  triplanar.map.rotate_deg = -50;
+  stack::TriplanarLayer of_normals = triplanar_layer({"c"}, stack::TriplanarContent::object_normal);
+  of_normals.common.opacity = 0.1;
+  // Most fragments lie within.
+  stack::DecalLayer box = decal_layer("a");
+  box.instances[0].size = {3, 4, 2.5};
+  box.instances[0].direction = {1, -2, 0.5};
+  box.common.mask = mask_of("mask");
+  lab.add("cube", surfgrad::test::random_image(random, 24, 4, 3));
+  stack::DecalLayer sphere = decal_layer("cube", stack::DecalShape::sphere);
+  sphere.space = stack::Space::object;
+  sphere.instances[0].radius = 2;
+  sphere.instances.push_back(sphere.instances[0]);
+  sphere.instances[1].position = {1, 0.5, 0};
+  sphere.common.scale = 0.1;
+  return {normal_layer("a"),
+          b,
+          c,
+          d,
+          derivative_layer("slopes"),
+          smooth,
+          of_object,
+          scale_free,
+          e,
+          planar,
+          triplanar,
+          of_normals,
+          box,
+          sphere};
 }
 
 } // namespace surfgrad::engine::test

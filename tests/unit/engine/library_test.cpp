@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace surfgrad::engine {
 namespace {
 
@@ -81,6 +83,41 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
   EXPECT_EQ(refusal(2, derivatives), "");
   EXPECT_NE(refusal(2, directions), "");
   EXPECT_EQ(refusal(4, directions), "");
+}
+
+TEST(MapLibrary, MakesCubeMapsOfOneFileOrSixAndSaysWhichFaceDoesNotFit) {
+  Random random(173);
+  std::map<std::filesystem::path, image::Image> images;
+  std::vector<stack::FileName> files;
+  for (const char* name : {"px", "nx", "py", "ny", "pz", "nz"}) {
+    images[name] = surfgrad::test::random_image(random, 4, 4, 3);
+    files.push_back({name, 3, "layers[0].map[" + std::to_string(files.size()) + "]"});
+  }
+  images["strip"] = surfgrad::test::random_image(random, 24, 4, 3);
+  images["wide"] = surfgrad::test::random_image(random, 25, 4, 3);
+  MapLibrary maps([&](const std::filesystem::path& name) -> const image::Image& { return images.at(name); },
+                  "s.json");
+  const auto six = maps.cube(files);
+  EXPECT_EQ(six->size(), 4);
+  EXPECT_EQ(maps.cube(files), six);
+  EXPECT_EQ(maps.cube({file_of("strip")})->size(), 4);
+  EXPECT_NE(maps.cube({file_of("strip")}), six);
+
+  const auto refusal = [&](const std::vector<stack::FileName>& names) -> std::string {
+    try {
+      (void)maps.cube(names);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  images["small"] = surfgrad::test::random_image(random, 2, 2, 3);
+  files[4].path = "small";
+  EXPECT_EQ(refusal(files), "small: (named by s.json:3: layers[0].map[4]): face +z is 2x2, face +x is 4x4; "
+                            "expected six faces of one size");
+  EXPECT_EQ(refusal({file_of("wide")}),
+            "wide: (named by s.json:7: layers[1].map): is 25x4, which is no layout of six square faces; "
+            "expected a strip (6:1 or 1:6), a cross (4:3 or 3:4) or six separate images");
 }
 
 TEST(UvSlots, ListEachSetOnceAndWantTangentsWhereALayerDoes) {

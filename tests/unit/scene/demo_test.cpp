@@ -3,6 +3,7 @@
 #include "scene/scene.hpp"
 
 #include "bake/bake.hpp"
+#include "stack/uses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,17 +44,10 @@ TEST(DemoScene, ReadsOnlyWhatItHas) {
   ASSERT_EQ(scene.objects.size(), 1u);
   for (const Material& material : scene.materials)
     for (const stack::Layer& layer : material.layers)
-      std::visit(
-          [&](const auto& l) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(l)>, stack::ResolveLayer>) {
-              EXPECT_TRUE(scene.images.contains(l.map.file.path));
-              EXPECT_LT(static_cast<std::size_t>(l.map.uv), scene.meshes[0].uv_sets.size());
-              if (l.common.mask) {
-                EXPECT_TRUE(scene.images.contains(l.common.mask->file.path));
-              }
-            }
-          },
-          layer);
+      for (const stack::TextureUse& use : stack::textures_of(layer)) {
+        EXPECT_TRUE(scene.images.contains(use.texture->file.path));
+        EXPECT_LT(static_cast<std::size_t>(use.texture->uv), scene.meshes[0].uv_sets.size());
+      }
 }
 
 TEST(DemoScene, BakesEveryTexelOfItsUnwrapWithoutATrouble) {

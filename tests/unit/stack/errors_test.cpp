@@ -12,8 +12,10 @@ struct Case {
   int line;
   const char* place;
   const char* problem;
-  const char* remedy;
+  std::string remedy;
 };
+
+const std::string kind_words = "normal_map, derivative_map, height_map, object_normal_map, noise, planar, triplanar, decal, parallax, resolve";
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -44,8 +46,12 @@ std::string in_mask(const std::string& keys) {
 }
 std::string in_document(const std::string& keys) { return "{ \"surfgrad\": 1,\n" + keys + "\n}"; }
 
+std::string in_heights(const std::string& keys) {
+  return in_document("\"layers\": [ {\"type\": \"height_map\", \"map\": \"h\",\n" + keys + "} ]");
+}
+
 constexpr const char* layer_keys =
-    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, "
+    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, "
     "channels, basis, scale, mask, opacity, blend";
 
 const Case not_json[] = {
@@ -119,12 +125,11 @@ const Case wrong_document[] = {
     {"layer_not_an_object", in_document("\"layers\": [\n\"normal_map\" ]"), 3, "layers[0]", "is a string",
      "expected an object"},
     {"no_layer_type", in_document("\"layers\": [ {\"map\": \"a\"} ]"), 2, "layers[0]", "lacks \"type\"",
-     "expected \"type\": one of: normal_map, object_normal_map, noise, resolve"},
+     "expected \"type\": one of: " + kind_words},
     {"unknown_layer_type", in_document("\"layers\": [ {\n\"type\": \"normalmap\"} ]"), 3, "layers[0].type",
-     "is \"normalmap\"",
-     "did you mean \"normal_map\"? expected one of: normal_map, object_normal_map, noise, resolve"},
+     "is \"normalmap\"", "did you mean \"normal_map\"? expected one of: " + kind_words},
     {"layer_type_number", in_document("\"layers\": [ {\"type\": 3} ]"), 2, "layers[0].type", "is 3",
-     "expected one of: normal_map, object_normal_map, noise, resolve"},
+     "expected one of: " + kind_words},
     {"materials_not_an_object", in_document("\"materials\": []"), 2, "materials", "is an array of 0",
      "expected an object"},
     {"material_not_an_array", in_document("\"materials\": {\n\"skin\": {} }"), 3, "materials.skin",
@@ -178,6 +183,20 @@ const Case wrong_layer[] = {
      "expected an array of 2 numbers"},
     {"wrap_word", in_layer("\"wrap\": \"tile\""), 5, "layers[0].wrap", "is \"tile\"",
      "expected one of: repeat, mirror, clamp"},
+    {"tiling_word", in_layer("\"tiling\": \"hexagon\""), 5, "layers[0].tiling", "is \"hexagon\"",
+     "expected one of: plain, hex"},
+    {"hex_tiles_of_a_clamped_map", in_layer("\"tiling\": \"hex\",\n\"wrap\": \"clamp\""), 6, "layers[0].wrap",
+     "does not go with hex tiling", "expected \"repeat\", or no \"tiling\""},
+    {"hex_tiles_of_a_mirrored_mask", in_mask("\"wrap\": \"mirror\", \"tiling\": \"hex\""), 6,
+     "layers[0].mask.wrap", "does not go with hex tiling", "expected \"repeat\", or no \"tiling\""},
+    {"turn_of_plain_tiles", in_layer("\"hex_turn\": 0"), 5, "layers[0].hex_turn",
+     "does not apply to plain tiling", "leave it out, or give \"tiling\": \"hex\""},
+    {"turn_beyond_half", in_layer("\"tiling\": \"hex\", \"hex_turn\": 181"), 5, "layers[0].hex_turn",
+     "is 181", "expected a number from 0 to 180"},
+    {"hex_tiles_of_whole_normals",
+     in_document("\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"tiling\": \"hex\"} ]"),
+     3, "layers[0].tiling", "is \"hex\", but whole normals do not turn with the tiles of a map",
+     "leave it out, or give a tangent-space map"},
     {"filter_word", in_layer("\"filter\": \"linear\""), 5, "layers[0].filter", "is \"linear\"",
      "did you mean \"bilinear\"? expected one of: nearest, bilinear, trilinear"},
     {"channels_word", in_layer("\"channels\": \"rgb\""), 5, "layers[0].channels", "is \"rgb\"",
@@ -193,9 +212,10 @@ const Case wrong_layer[] = {
     {"mask_channel", in_mask("\"channel\": \"x\""), 6, "layers[0].mask.channel", "is \"x\"",
      "expected one of: r, g, b, a"},
     {"mask_green", in_mask("\"green\": \"up\""), 6, "layers[0].mask", "unknown key \"green\"",
-     "expected one of: map, uv, tile, rotate, offset, wrap, filter, channel"},
+     "expected one of: map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, channel"},
     {"mask_key_slip", in_mask("\"chanel\": \"r\""), 6, "layers[0].mask", "unknown key \"chanel\"",
-     "did you mean \"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, channel"},
+     "did you mean \"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, tiling, "
+     "hex_turn, channel"},
     {"space_of_a_tangent_map", in_layer("\"space\": \"object\""), 5, "layers[0]", "unknown key \"space\"",
      layer_keys},
     {"unknown_key_without_a_near_one", in_layer("\"strength\": 1"), 5, "layers[0]",
@@ -209,13 +229,47 @@ const Case wrong_layer[] = {
      in_document(
          "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"basis\": \"derived\"} ]"),
      3, "layers[0]", "unknown key \"basis\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, green, space, scale, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, space, "
+     "scale, "
      "mask, "
      "opacity, blend"},
     {"space_word",
      in_document(
          "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"space\": \"tangent\"} ]"),
      3, "layers[0].space", "is \"tangent\"", "expected one of: object, world"},
+    {"derivative_range_zero",
+     in_document("\"layers\": [ {\"type\": \"derivative_map\", \"map\": \"a\",\n\"range\": 0} ]"), 3,
+     "layers[0].range", "is 0", "expected a number greater than 0"},
+    {"derivative_neutral_word",
+     in_document("\"layers\": [ {\"type\": \"derivative_map\", \"map\": \"a\",\n\"neutral\": 128} ]"), 3,
+     "layers[0].neutral", "is 128", "expected one of: between, whole"},
+    {"channels_of_a_derivative_map",
+     in_document("\"layers\": [ {\"type\": \"derivative_map\", \"map\": \"a\",\n\"channels\": \"xy\"} ]"), 3,
+     "layers[0]", "unknown key \"channels\"",
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, range, "
+     "neutral, basis, "
+     "scale, mask, opacity, blend"},
+    {"height_without_a_map", in_document("\"layers\": [\n{\"type\": \"height_map\"} ]"), 3, "layers[0]",
+     "lacks \"map\"", "expected \"map\": a file name"},
+    {"height_word", in_heights("\"height\": \"tall\""), 3, "layers[0].height", "is a string",
+     "expected a number"},
+    {"height_mode_word", in_heights("\"mode\": \"scale-free\""), 3, "layers[0].mode", "is \"scale-free\"",
+     "did you mean \"scale_free\"? expected one of: physical, scale_free"},
+    {"height_units_word", in_heights("\"units\": \"world\""), 3, "layers[0].units", "is \"world\"",
+     "expected one of: scene, object"},
+    {"height_taps_number", in_heights("\"taps\": 3"), 3, "layers[0].taps", "is 3",
+     "expected one of: one, three, bicubic"},
+    {"height_green", in_heights("\"green\": \"up\""), 3, "layers[0]", "unknown key \"green\"",
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, channel, mode, "
+     "height, units, "
+     "taps, basis, scale, mask, opacity, blend"},
+    {"basis_of_a_physical_height", in_heights("\"basis\": \"derived\""), 3, "layers[0].basis",
+     "does not apply to this mode", "leave it out, or give \"mode\": \"scale_free\""},
+    {"units_of_a_scale_free_height", in_heights("\"mode\": \"scale_free\",\n\"units\": \"scene\""), 4,
+     "layers[0].units", "does not apply to this mode", "leave it out, or give \"mode\": \"physical\""},
+    {"taps_of_a_scale_free_height", in_heights("\"taps\": \"three\",\n\"mode\": \"scale_free\""), 3,
+     "layers[0].taps", "does not apply to this mode",
+     "leave it out, or give \"mode\": \"physical\" or \"taps\": \"bicubic\""},
     {"resolve_with_a_scale", in_document("\"layers\": [ {\"type\": \"resolve\",\n\"scale\": 1} ]"), 3,
      "layers[0]", "unknown key \"scale\"", "expected one of: type"},
 };
@@ -269,7 +323,7 @@ TEST(StackErrorMessage, is_one_line_that_names_file_line_key_and_remedy) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "dir/stack.json:6: layers[0].mask: unknown key \"chan?el\"; did you mean "
                                "\"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, "
-                               "channel");
+                               "tiling, hex_turn, channel");
   }
 }
 

@@ -1,4 +1,5 @@
 #include "stack/stack.hpp"
+#include "stack/uses.hpp"
 #include "stack_text.hpp"
 
 #include <gtest/gtest.h>
@@ -53,6 +54,8 @@ TEST(StackValues, smallest_normal_map_has_the_defaults) {
   EXPECT_EQ(layer.map.offset.y, 0);
   EXPECT_EQ(layer.map.wrap, Wrap::repeat);
   EXPECT_EQ(layer.map.filter, Filter::trilinear);
+  EXPECT_EQ(layer.map.tiling, Tiling::plain);
+  EXPECT_EQ(layer.map.hex_turn_deg, 180);
   EXPECT_EQ(layer.map.channels, Channels::automatic);
   EXPECT_EQ(layer.map.green, Green::up);
   EXPECT_EQ(layer.basis, Basis::mikktspace);
@@ -60,6 +63,55 @@ TEST(StackValues, smallest_normal_map_has_the_defaults) {
   EXPECT_EQ(layer.common.opacity, 1);
   EXPECT_EQ(layer.common.blend, Blend::add);
   EXPECT_FALSE(layer.common.mask);
+}
+
+TEST(StackValues, smallest_maps_of_slopes_and_heights_have_the_defaults) {
+  const Stack stack = parse(R"({"surfgrad": 1, "layers": [{"type": "derivative_map", "map": "d"},
+      {"type": "height_map", "map": "h"}, {"type": "height_map", "map": "h", "mode": "scale_free"}]})");
+  const auto& slopes = std::get<DerivativeMapLayer>(stack.layers[0]);
+  EXPECT_EQ(slopes.map.file.path, "d");
+  EXPECT_EQ(slopes.code.range, 1);
+  EXPECT_EQ(slopes.code.neutral, NeutralCode::between);
+  EXPECT_EQ(slopes.basis, Basis::mikktspace);
+  const auto& heights = std::get<HeightMapLayer>(stack.layers[1]);
+  EXPECT_EQ(heights.map.file.path, "h");
+  EXPECT_EQ(heights.channel, MaskChannel::r);
+  EXPECT_EQ(heights.mode, HeightMode::physical);
+  EXPECT_EQ(heights.height, 1);
+  EXPECT_EQ(heights.units, Units::scene);
+  EXPECT_EQ(heights.taps, Taps::three);
+  EXPECT_FALSE(heights.basis);
+  EXPECT_FALSE(std::get<HeightMapLayer>(stack.layers[2]).basis);
+}
+
+TEST(StackValues, every_key_of_slopes_and_heights_arrives) {
+  EXPECT_EQ(text_of(parse(R"({"surfgrad": 1, "layers": [
+      {"type": "derivative_map", "map": "d", "uv": 2, "range": 2.5, "neutral": "whole", "green": "down",
+       "basis": "derived", "scale": 3},
+      {"type": "height_map", "map": "h", "uv": 3, "channel": "b", "height": -0.25, "units": "object",
+       "taps": "one", "opacity": 0.5},
+      {"type": "height_map", "map": "h", "mode": "scale_free", "taps": "bicubic", "basis": "mikktspace"}]})")),
+            text_of(parse(R"({"surfgrad": 1, "layers": []})"))
+                .replace(12, 0, R"(derivative_map basis 1 range 2.5 neutral 1
+scale 3 opacity 1 blend 0
+d uv 2 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2
+green 1
+height_map channel 2 mode 0 height -0.25 units 1 taps 0 basis -1
+scale 1 opacity 0.5 blend 0
+h uv 3 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2
+height_map channel 0 mode 1 height 1 units 0 taps 2 basis 0
+scale 1 opacity 1 blend 0
+h uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2
+)"));
+}
+
+TEST(StackValues, only_layers_that_use_the_vertex_frame_ask_for_it) {
+  const Stack stack = parse(R"({"surfgrad": 1, "layers": [{"type": "derivative_map", "map": "d"},
+      {"type": "derivative_map", "map": "d", "basis": "derived"}, {"type": "height_map", "map": "h"},
+      {"type": "height_map", "map": "h", "mode": "scale_free"},
+      {"type": "height_map", "map": "h", "mode": "scale_free", "basis": "mikktspace"}]})");
+  const bool wanted[] = {true, false, false, false, true};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(textures_of(stack.layers[i])[0].vertex_frame, wanted[i]) << i;
 }
 
 constexpr std::string_view every_key = R"({
@@ -76,7 +128,7 @@ constexpr std::string_view every_key = R"({
     { "type": "resolve" },
     { "type": "object_normal_map", "map": "sub/b.exr", "uv": 1, "tile": [1, 2], "rotate": 1e1,
       "offset": [0, 1], "wrap": "clamp", "filter": "bilinear", "green": "down",
-      "space": "world", "scale": 2, "opacity": 0, "blend": "mix", "mask": { "map": "q.png" } }
+      "space": "world", "scale": 2, "opacity": 0, "blend": "mix", "mask": { "map": "q.png", "tiling": "hex", "hex_turn": 12.5 } }
   ],
   "materials": { "skin": [ { "type": "resolve" } ], "Cloth.001": [], "\u00e9toile": [] },
   "camera": { "yaw": -200, "pitch": -90, "zoom": 0.5, "fov": 179.5 },
@@ -98,6 +150,7 @@ resolve
 object_normal_map space 1
 scale 2 opacity 0 blend 1
 q.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2
+hex turn 12.5
 channel 0
 sub/b.exr uv 1 tile 1 2 rotate 10 offset 0 1 wrap 2 filter 1
 green 1

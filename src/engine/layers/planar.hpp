@@ -1,0 +1,63 @@
+#pragma once
+
+#include "engine/bump_map.hpp"
+#include "engine/layers/influence.hpp"
+
+#include <surfgrad/triplanar.hpp>
+
+namespace surfgrad::engine {
+
+/// An image of bumps projected along an axis of object space or world space: a volume bump map that does
+/// not change along the axis.
+struct Planar {
+  Influence influence{};
+  BumpMap bumps{};
+  PlaneAxis axis = PlaneAxis::x;
+  bool world = false;
+};
+
+/// The planes of a single projection: an image appears the right way round to whom looks against the axis.
+inline constexpr TriplanarConvention planar_convention{.handedness = Handedness::right};
+
+/// Whether a position in object space is wanted of an object whose transform has no inverse: footprints
+/// and gradients are zero there.
+template <Scalar T>
+[[nodiscard]] mask_t<T> lacks_space(const Point<T>& point, bool world) {
+  const mat3<double>& m = point.placement.inverse_linear;
+  const T singular = T(static_cast<value_t<T>>(max_abs(m.x) == 0 && max_abs(m.y) == 0 && max_abs(m.z) == 0));
+  return world ? mask_t<T>(singular < singular) : mask_t<T>(T(value_t<T>(0)) < singular);
+}
+
+/// What a point of space is on the planes of a projection: where they are read, and the footprint there.
+template <class T>
+struct PlaneFootprints {
+  TriplanarCoordinates<T> st, dst_dx, dst_dy;
+};
+
+template <Scalar T>
+[[nodiscard]] PlaneFootprints<T> on_planes(const SpacePoint<T>& at, TriplanarConvention convention) {
+  // The coordinates are linear in the position, so what they make of its derivatives are their own.
+  return {triplanar_coordinates(at.position, convention), triplanar_coordinates(at.dp_dx, convention),
+          triplanar_coordinates(at.dp_dy, convention)};
+}
+
+/// The coordinate of one of the planes.
+template <class T>
+[[nodiscard]] vec2<T> of_plane(const TriplanarCoordinates<T>& planes, PlaneAxis axis) {
+  return axis == PlaneAxis::x ? planes.x_plane : axis == PlaneAxis::y ? planes.y_plane : planes.z_plane;
+}
+
+/// Surface gradient of a planar projection at a point (section 2.8; Golubev, equations 44 and 50).
+///
+/// degenerate   (out) set where object space is wanted of an object whose transform has no inverse; the
+///              gradient is zero there
+template <LaneScalar T>
+[[nodiscard]] vec3<T> surface_gradient(const Planar& layer, const Point<T>& point, mask_t<T>& degenerate) {
+  degenerate = degenerate | lacks_space(point, layer.world);
+  const PlaneFootprints<T> planes = on_planes(in_space(point, layer.world), planar_convention);
+  const vec2<T> d = derivative(layer.bumps, of_plane(planes.st, layer.axis),
+                               of_plane(planes.dst_dx, layer.axis), of_plane(planes.dst_dy, layer.axis));
+  return from_displacement_in_space(point, layer.world, planar_gradient(layer.axis, d, planar_convention));
+}
+
+} // namespace surfgrad::engine
