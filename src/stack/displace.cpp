@@ -27,8 +27,12 @@ void check_source(Displace& displace, const Value& value) {
 } // namespace
 
 const Fields<DisplacementMap>& DisplacementMap::fields() {
-  static const auto table =
-      Fields<DisplacementMap>().base<Texture>().without("filter").word("channel", &DisplacementMap::channel);
+  static const auto table = Fields<DisplacementMap>()
+                                .base<Texture>()
+                                .without("filter")
+                                .without("tiling")
+                                .without("hex_turn")
+                                .word("channel", &DisplacementMap::channel);
   return table;
 }
 

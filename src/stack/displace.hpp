@@ -10,7 +10,7 @@
 namespace surfgrad::stack {
 
 /// A height map on a texture coordinate of the mesh. It is read through a smooth curve over 4x4 texels of the
-/// file itself, so `filter` does not apply.
+/// file itself, so `filter` and `tiling` do not apply.
 struct DisplacementMap : Texture {
   static constexpr std::string_view format_name = "displacement_map";
   MaskChannel channel = MaskChannel::r;

@@ -186,11 +186,13 @@ inline constexpr auto words_of<TextureOrigin> = std::to_array<Word<TextureOrigin
 template <>
 inline constexpr auto words_of<TriplanarPlanes> = std::to_array<Word<TriplanarPlanes>>(
     {{"mikkelsen", TriplanarPlanes::mikkelsen}, {"golubev", TriplanarPlanes::golubev}});
-words_of<DecalShape> = std::to_array<Word<DecalShape>>({{"box", DecalShape::box},
-                                                        {"cone", DecalShape::cone},
-                                                        {"sphere", DecalShape::sphere},
-                                                        {"capsule", DecalShape::capsule},
-                                                        {"wedge", DecalShape::wedge}});
+template <>
+inline constexpr auto
+    words_of<DecalShape> = std::to_array<Word<DecalShape>>({{"box", DecalShape::box},
+                                                            {"cone", DecalShape::cone},
+                                                            {"sphere", DecalShape::sphere},
+                                                            {"capsule", DecalShape::capsule},
+                                                            {"wedge", DecalShape::wedge}});
 template <>
 inline constexpr auto words_of<DecalBlend> = std::to_array<Word<DecalBlend>>(
     {{"add", DecalBlend::add}, {"mix", DecalBlend::mix}, {"replace", DecalBlend::replace}});

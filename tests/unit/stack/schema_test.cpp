@@ -244,7 +244,7 @@ TEST(StackDocumentation, examples_parse) {
     EXPECT_NO_THROW(static_cast<void>(parse_stack(example, "stack-format.md"))) << example;
     ++examples;
   }
-  EXPECT_EQ(examples, 6);
+  EXPECT_EQ(examples, 8);
 }
 
 TEST(StackDocumentation, names_every_key_and_word) {
