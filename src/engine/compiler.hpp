@@ -1,14 +1,14 @@
 #pragma once
 
 #include "engine/bump_map.hpp"
-#include "engine/layers/height_map.hpp"
 #include "engine/layers/decal.hpp"
+#include "engine/layers/height_map.hpp"
 #include "engine/layers/influence.hpp"
 #include "engine/layers/noise.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
-#include "engine/layers/planar.hpp"
 #include "engine/layers/parallax.hpp"
+#include "engine/layers/planar.hpp"
 #include "engine/layers/resolve.hpp"
 #include "engine/layers/triplanar.hpp"
 #include "engine/map_library.hpp"

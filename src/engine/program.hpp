@@ -1,12 +1,12 @@
 #pragma once
 
+#include "engine/layers/decal.hpp"
 #include "engine/layers/height_map.hpp"
 #include "engine/layers/noise.hpp"
-#include "engine/layers/decal.hpp"
 #include "engine/layers/normal_map.hpp"
 #include "engine/layers/object_normal_map.hpp"
-#include "engine/layers/planar.hpp"
 #include "engine/layers/parallax.hpp"
+#include "engine/layers/planar.hpp"
 #include "engine/layers/resolve.hpp"
 #include "engine/layers/triplanar.hpp"
 #include "engine/map_library.hpp"
@@ -20,7 +20,9 @@ namespace surfgrad::engine {
 
 /// The layers of one material, ready to run: maps loaded, numbers folded.
 struct Program {
-  std::vector<std::variant<NormalMap, HeightMap, ObjectNormalMap, VolumeNoise, Planar, Triplanar, Decals, Parallax, Resolve>> layers;
+  std::vector<std::variant<NormalMap, HeightMap, ObjectNormalMap, VolumeNoise, Planar, Triplanar, Decals,
+                           Parallax, Resolve>>
+      layers;
 };
 
 /// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the

@@ -23,7 +23,8 @@
 namespace surfgrad::stack {
 
 /// One alternative a layer kind: this list is what the parser knows.
-using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer, NoiseLayer, PlanarLayer, TriplanarLayer, DecalLayer, ParallaxLayer, ResolveLayer>;
+using Layer = std::variant<NormalMapLayer, DerivativeMapLayer, HeightMapLayer, ObjectNormalMapLayer,
+                           NoiseLayer, PlanarLayer, TriplanarLayer, DecalLayer, ParallaxLayer, ResolveLayer>;
 
 /// The layers of one material of the mesh.
 struct MaterialLayers {

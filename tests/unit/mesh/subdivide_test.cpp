@@ -1,5 +1,7 @@
 #include "io/model_file.hpp"
 #include "mesh/subdivide.hpp"
+#include <surfgrad/trigonometry.hpp>
+
 #include "support/meshes.hpp"
 #include "support/random.hpp"
 #include "support/worst.hpp"
@@ -141,6 +143,49 @@ TEST(Subdivide, SeamsStayClosedToTheBit) {
     ASSERT_EQ(open_edges(mesh), 0);
     for (int level = 1; level <= 3; ++level) EXPECT_EQ(open_edges(subdivide(mesh, level, shape)), 0);
   }
+}
+
+/// A cylinder with caps: each rim's vertices are doubled, with the side's normal and the cap's.
+TriangleMesh cylinder(int sides) {
+  TriangleMesh mesh;
+  mesh.uv_sets.resize(1);
+  const auto corner = [&](int i, double y) {
+    const SinCos<double> turn = sin_cos_turns(static_cast<double>(i % sides) / sides);
+    return vec3<double>{turn.sin, y, turn.cos};
+  };
+  const auto smooth = [&](std::uint32_t vertex) {
+    const vec3<double> p = test::widen(mesh.positions[vertex]);
+    mesh.normals[vertex] = test::narrow(normalize_or_zero(vec3<double>{p.x, 0, p.z}));
+  };
+  for (int i = 0; i < sides; ++i) {
+    test::append_triangle(mesh, corner(i, -1), corner(i + 1, -1), corner(i + 1, 1));
+    test::append_triangle(mesh, corner(i, -1), corner(i + 1, 1), corner(i, 1));
+    for (std::uint32_t k = 1; k <= 6; ++k) smooth(static_cast<std::uint32_t>(mesh.positions.size()) - k);
+    test::append_triangle(mesh, {0, 1, 0}, corner(i, 1), corner(i + 1, 1));
+    test::append_triangle(mesh, {0, -1, 0}, corner(i + 1, -1), corner(i, -1));
+  }
+  return mesh;
+}
+
+TEST(Subdivide, CreasesStayClosedToTheBitAndBulgeHalfway) {
+  const TriangleMesh mesh = cylinder(7);
+  ASSERT_EQ(open_edges(mesh), 0);
+  for (const EdgeShape shape : shapes)
+    for (int level = 1; level <= 3; ++level) EXPECT_EQ(open_edges(subdivide(mesh, level, shape)), 0);
+  const auto reach = [](const TriangleMesh& m, double y) {
+    double least = 1;
+    for (const vec3<float>& p : m.positions)
+      if (p.y == y && p.x * p.x + p.z * p.z > 0.5f)
+        least = std::min(least, std::hypot(double(p.x), double(p.z)));
+    return least;
+  };
+  const TriangleMesh curved = subdivide(mesh, 1, EdgeShape::curved);
+  // The cap wants its edge straight, the side bulged: halfway is what both have at the rim.
+  const double straight = reach(subdivide(mesh, 1), 1);
+  // cos(a) for the half angle a of an edge; the cubic's middle is at cos(a) * (1 + sin(a)^2 / 2).
+  const double bulged = straight * (1 + 0.5 * (1 - straight * straight));
+  EXPECT_GT(reach(curved, 1), straight);
+  EXPECT_NEAR(reach(curved, 1), 0.5 * (straight + bulged), 2 * epsilon);
 }
 
 TEST(Subdivide, DoesNotDependOnTheOrderOfCornersAndTriangles) {

@@ -15,7 +15,8 @@ struct Case {
   std::string remedy;
 };
 
-const std::string kind_words = "normal_map, derivative_map, height_map, object_normal_map, noise, planar, triplanar, decal, parallax, resolve";
+const std::string kind_words = "normal_map, derivative_map, height_map, object_normal_map, noise, planar, "
+                               "triplanar, decal, parallax, resolve";
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -122,9 +123,9 @@ const Case wrong_document[] = {
     {"version_zero", "{ \"surfgrad\": 0 }", 1, "surfgrad", "is 0", "expected the version of the format, 1"},
     {"version_string", "{ \"surfgrad\": \"1\" }", 1, "surfgrad", "is a string", "expected a number"},
     {"unknown_top_key", in_document("\"layer\": []"), 2, "", "unknown key \"layer\"",
-     "did you mean \"layers\"? expected one of: surfgrad, $schema, mesh, back_faces, layers, materials, "
-     "camera, "
-     "lights"},
+     "did you mean \"layers\"? expected one of: surfgrad, $schema, mesh, morph, displace, back_faces, "
+     "layers, "
+     "materials, camera, lights"},
     {"layers_not_an_array", in_document("\"layers\": {}"), 2, "layers", "is an object", "expected an array"},
     {"layer_not_an_object", in_document("\"layers\": [\n\"normal_map\" ]"), 3, "layers[0]", "is a string",
      "expected an object"},

@@ -40,9 +40,11 @@ json rules_of(json value) {
   if (value.is_array())
     for (json& element : value) element = rules_of(element);
   if (!value.is_object()) return value;
-  static const std::set<std::string> kept = {
-      "#/definitions/mask", "#/definitions/camera", "#/definitions/convention",    "#/definitions/lights",
-      "#/definitions/sun",  "#/definitions/layers", "#/definitions/decal_instance"};
+  static const std::set<std::string> kept = {"#/definitions/mask",          "#/definitions/camera",
+                                             "#/definitions/convention",    "#/definitions/lights",
+                                             "#/definitions/sun",           "#/definitions/layers",
+                                             "#/definitions/displace",      "#/definitions/displacement_map",
+                                             "#/definitions/decal_instance"};
   if (value.contains("$ref") && kept.count(value["$ref"]) == 0)
     return rules_of(schema().at(json::json_pointer(value["$ref"].get<std::string>().substr(1))));
   value.erase("description");
@@ -86,6 +88,8 @@ json expected_schema(const Shape& shape) {
   }
   case Shape::Kind::vector:
     return array(shape.components, number);
+  case Shape::Kind::numbers:
+    return {{"type", "array"}, {"items", number}};
   case Shape::Kind::tile:
     return {{"anyOf", {nonzero, array(2, nonzero)}}};
   case Shape::Kind::size:
@@ -181,15 +185,24 @@ json with_defaults(const ObjectFormat& object) {
 }
 
 TEST(StackSchema, defaults_are_those_of_the_parser) {
-  json plain = {{"surfgrad", 1}, {"camera", json::object()}, {"lights", {{"sun", json::object()}}}};
+  json plain = {{"surfgrad", 1},
+                {"camera", json::object()},
+                {"lights", {{"sun", json::object()}}},
+                {"displace", {{"map", {{"map", "h.png"}}}, {"height", 1}}}};
   json full = plain;
   for (const ObjectFormat& object : document_format()) {
-    const json defaults = with_defaults(object);
+    json defaults = with_defaults(object);
     EXPECT_TRUE(!defaults.empty() || object.name == "resolve" || object.name == Stack::format_name ||
                 object.name == "sun")
         << object.name;
+    if (object.name == "displace") // with the map that the document has, no function
+      for (const char* odd :
+           {"function", "basis", "worley", "octaves", "lacunarity", "gain", "power", "frequency", "offset"})
+        defaults.erase(odd);
     if (object.name == "camera") full["camera"] = defaults;
     if (object.name == "lights") full["lights"].update(defaults);
+    if (object.name == "displace") full["displace"].update(defaults);
+    if (object.name == "displacement_map") full["displace"]["map"].update(defaults);
     if (object.name == "sun") full["lights"]["sun"] = defaults;
     if (object.name == "convention") {
       plain["layers"].push_back({{"type", "triplanar"}, {"map", "n.png"}});
@@ -234,7 +247,7 @@ TEST(StackDocumentation, examples_parse) {
     EXPECT_NO_THROW(static_cast<void>(parse_stack(example, "stack-format.md"))) << example;
     ++examples;
   }
-  EXPECT_EQ(examples, 4);
+  EXPECT_EQ(examples, 8);
 }
 
 TEST(StackDocumentation, names_every_key_and_word) {

@@ -18,9 +18,9 @@ struct StackText {
     text += fmt::format(form, std::forward<Values>(values)...) + "\n";
   }
   static std::string tiled(const Tiled& t) {
-    std::string text = fmt::format("tile {} {} rotate {} offset {} {} wrap {} filter {}", t.tile.x, t.tile.y,
-                                   t.rotate_deg, t.offset.x, t.offset.y, static_cast<int>(t.wrap),
-                                   static_cast<int>(t.filter));
+    std::string text =
+        fmt::format("tile {} {} rotate {} offset {} {} wrap {} filter {}", t.tile.x, t.tile.y, t.rotate_deg,
+                    t.offset.x, t.offset.y, static_cast<int>(t.wrap), static_cast<int>(t.filter));
     if (t.tiling == Tiling::hex) text += fmt::format(" hex turn {}", t.hex_turn_deg);
     return text;
   }
@@ -67,11 +67,13 @@ struct StackText {
     common(l.common);
     map(l.map);
   }
-  void operator()(const NoiseLayer& l) {
-    const NoiseFunction& n = l.noise;
+  void noise(const NoiseFunction& n) {
     line("noise {} {} {} octaves {} {} {} power {} frequency {} offset {} {} {}",
          static_cast<int>(n.function), static_cast<int>(n.basis), static_cast<int>(n.worley), n.octaves,
          n.lacunarity, n.gain, n.power, n.frequency, n.offset.x, n.offset.y, n.offset.z);
+  }
+  void operator()(const NoiseLayer& l) {
+    noise(l.noise);
     line("space {} method {}", static_cast<int>(l.space), static_cast<int>(l.method));
     common(l.common);
   }
@@ -132,6 +134,17 @@ struct StackText {
 inline std::string text_of(const Stack& stack) {
   StackText out;
   if (stack.mesh) out.line("mesh {}", stack.mesh->path.string());
+  for (const double weight : stack.morph.weights) out.line("morph {}", weight);
+  if (stack.displace) {
+    const Displace& d = *stack.displace;
+    out.noise(d.noise);
+    out.line("displace height {} level {} subdivide {} edges {}", d.height, d.level, d.subdivide,
+             static_cast<int>(d.edges));
+    if (d.map) {
+      out.texture(*d.map);
+      out.line("channel {}", static_cast<int>(d.map->channel));
+    }
+  }
   if (stack.back_faces) out.line("back_faces {}", static_cast<int>(*stack.back_faces));
   out.line("layers {}", stack.has_layers);
   out.layers(stack.layers);
