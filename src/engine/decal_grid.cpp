@@ -79,9 +79,10 @@ std::span<const std::uint32_t> DecalGrid::search(std::span<const Bounds> where) 
     for (const std::uint32_t i : boxes)
       if (meet(boxes_[i], query)) found.push_back(i);
   };
-  for (const auto& [exponent, level] : levels_)
+  for (const auto& entry : levels_)
     for (const Bounds& query : where) {
-      const CellRange range = cells_of(query, exponent);
+      const Level& level = entry.second;
+      const CellRange range = cells_of(query, entry.first);
       if (!range.spans_two_at_most()) {
         add(level.boxes, query);
         continue;

@@ -96,7 +96,9 @@ template <LaneScalar T>
   const vec3<T> n = image::sample_cube(*layer.cube, direction.lookup, lod, direction.inside);
   const vec3<T> v = n.x * frame.axis_x + n.y * frame.axis_y + n.z * frame.axis_z;
   const T zero = T(value_t<T>(0));
-  const mask_t<T> none = (max_abs(n) == zero) | (max_abs(direction.direction) == zero);
+  const mask_t<T> no_texel = max_abs(n) == zero;
+  const mask_t<T> no_direction = max_abs(direction.direction) == zero;
+  const mask_t<T> none = no_texel | no_direction;
   const vec3<T> g = decal_gradient_from_normal(direction, v);
   return {select<T>(none, vec3<T>{zero, zero, zero}, g), direction.direction, direction.falloff,
           direction.inside, mask_t<T>(direction.inside & none)};
