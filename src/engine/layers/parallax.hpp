@@ -52,9 +52,9 @@ template <LaneScalar T>
   w.lod = tiled.filter == image::Filter::trilinear
               ? level_of_detail(tiled, w.uv.footprint_dx, w.uv.footprint_dy)
               : zero;
-  const mask_t<T> collapsed =
-      is_collapsed(w.uv.dst_dx, w.uv.dst_dy) | is_collapsed(point.frame.dp_dx, point.frame.dp_dy);
-  w.sound = mask_t<T>(zero < max_abs(point.frame.normal)) & mask_t<T>(!collapsed);
+  const mask_t<T> no_coordinate = is_collapsed(w.uv.dst_dx, w.uv.dst_dy);
+  const mask_t<T> no_plane = is_collapsed(point.frame.dp_dx, point.frame.dp_dy);
+  w.sound = mask_t<T>(zero < max_abs(point.frame.normal)) & mask_t<T>(!(no_coordinate | no_plane));
   return w;
 }
 
