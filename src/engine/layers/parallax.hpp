@@ -52,9 +52,9 @@ template <LaneScalar T>
   w.lod = tiled.filter == image::Filter::trilinear
               ? level_of_detail(tiled, w.uv.footprint_dx, w.uv.footprint_dy)
               : zero;
-  const mask_t<T> collapsed =
-      is_collapsed(w.uv.dst_dx, w.uv.dst_dy) | is_collapsed(point.frame.dp_dx, point.frame.dp_dy);
-  w.sound = mask_t<T>(zero < max_abs(point.frame.normal)) & mask_t<T>(!collapsed);
+  const mask_t<T> no_coordinate = is_collapsed(w.uv.dst_dx, w.uv.dst_dy);
+  const mask_t<T> no_plane = is_collapsed(point.frame.dp_dx, point.frame.dp_dy);
+  w.sound = mask_t<T>(zero < max_abs(point.frame.normal)) & mask_t<T>(!(no_coordinate | no_plane));
   return w;
 }
 
@@ -136,7 +136,8 @@ template <LaneScalar T>
 ///
 /// base    frame of the base surface, its normal that at the point
 /// height  of the point
-/// Where the sun is below the base surface nothing is in its way: shading has to leave it out.
+/// A sun below the horizon of the base surface is behind that; where there is none, or nothing sound to
+/// search, nothing is in its way.
 template <LaneScalar T>
 [[nodiscard]] T sun_over_relief(const Parallax& layer, const Point<T>& point, const Frame<T>& base,
                                 const Window<T>& window, vec2<T> st, T height) {
@@ -145,7 +146,8 @@ template <LaneScalar T>
   const TiledMap& tiled = layer.relief.texture.tiled;
   const vec3<T> to_sun = in_lanes<T>(point.placement.to_sun);
   const T along = dot(base.normal, to_sun);
-  const mask_t<T> lit = window.sound & (zero < along);
+  const mask_t<T> searched = window.sound & (zero < max_abs(to_sun));
+  const mask_t<T> lit = searched & (zero < along);
   const vec2<T> way = in_map(tiled, way_of(layer, base, window, to_sun, false, lit));
   // Seen from below, the way to the sun leads down the relief.
   const mask_t<T> down = lit & (window.displacement * along < zero);
@@ -155,7 +157,7 @@ template <LaneScalar T>
   if (!layer.occlusion)
     height =
         image::march(layer.field->from_above, tiled.wrap, here, vec2<T>{zero, zero}, window.lod, lit).height;
-  T sun = one;
+  T sun = select(searched, zero, one);
   if (any(up))
     sun = select(up, image::visible(layer.field->from_above, tiled.wrap, here, height, way, window.lod, up),
                  sun);

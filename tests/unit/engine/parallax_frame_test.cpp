@@ -287,9 +287,9 @@ TEST_F(ParallaxShadow, FallsIntoADitch) {
   }
 }
 
-TEST_F(ParallaxShadow, IsNotAskedForBelowTheHorizon) {
-  EXPECT_EQ(sunlight(35, -20, -1), 1);
-  EXPECT_EQ(sunlight(35, -20, 1), 1);
+TEST_F(ParallaxShadow, IsEverywhereWhereTheSunIsBehindTheMesh) {
+  EXPECT_EQ(sunlight(50, 30, 1), 1);
+  for (const double texel : {29.5, 32.0, 33.7, 50.0}) EXPECT_EQ(sunlight(texel, -1, 1), 0);
 }
 
 TEST_F(ParallaxFrame, StaysFiniteWhereverTheInputIsDegenerate) {

@@ -138,7 +138,8 @@ TEST_F(ParallaxPosition, HeightsOfZeroChangeNothing) {
         layer.self_shadow = true;
         const Sight sight(evaluate(plane, random.vector2(-2, 2)), degrees, random);
         const raster::Fragment<double> f = sight.fragment();
-        const Moved m = moved(lab.compile({layer}), f, sight.placement(random.unit_vector()));
+        const Moved m = moved(lab.compile({layer}), f,
+                              sight.placement(normalize_or_zero(plane.axes.z + 0.5 * random.vector3())));
         same.add(m.fragment.position, f.position, 1e-15, k);
         same.add(m.frame.normal, f.normal, 1e-15, k);
         for (std::size_t s = 0; s < 2; ++s) {
