@@ -50,8 +50,8 @@ struct DecalLayer {
   BumpMap map = clamped(); ///< how the image of a box, cone or wedge lies
   Space space = Space::world;
   double falloff = 0.1; ///< fraction of the shape over which the decal fades towards its border, 0 to 1
-  ConeGradient gradient = ConeGradient::exact; ///< cone and wedge
-  std::vector<DecalInstance> instances{{}};    ///< in order
+  ConeGradient gradient = ConeGradient::exact;                          ///< cone and wedge
+  std::vector<DecalInstance> instances = std::vector<DecalInstance>(1); ///< in order
 
   static const Fields<DecalLayer>& fields();
 
