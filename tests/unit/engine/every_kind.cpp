@@ -94,6 +94,8 @@ Body::Body(double bend) {
   lab_.add("normals", surfgrad::test::random_normal_map(random, 8, 8, 0.5));
   lab_.add("directions", surfgrad::test::random_image(random, 8, 8, 3));
   lab_.add("heights", surfgrad::test::random_image(random, 8, 8, 1));
+  lab_.add("slopes", surfgrad::test::random_image(random, 8, 8, 2));
+  lab_.add("cube", surfgrad::test::random_image(random, 24, 4, 3));
   lab_.add("mask", surfgrad::test::random_image(random, 4, 4, 4));
   mesh_.uv_sets.resize(1);
   for (int side = 0; side < 6; ++side) {
@@ -159,66 +161,6 @@ std::vector<Seen> Body::seen(const KindCase& kind, const View& view, double scal
     }
   }
   return points;
-}
-
-std::vector<KindCase> every_kind() {
-  const auto normal_map = [](stack::Basis basis) {
-    return [basis](double) -> std::vector<stack::Layer> {
-      stack::NormalMapLayer layer = normal_layer("normals", 0, basis);
-      layer.map.tile = {3, -2};
-      layer.map.rotate_deg = 30;
-      layer.common.mask = mask_of("mask", stack::MaskChannel::g);
-      return {layer};
-    };
-  };
-  const auto parallax = [](stack::ParallaxMethod method) {
-    return [method](double scale) -> std::vector<stack::Layer> {
-      stack::ParallaxLayer layer = parallax_layer("heights", 0.1 * scale);
-      layer.method = method;
-      layer.lod = stack::ParallaxLod::displaced;
-      layer.map.tile = {2, -1};
-      layer.map.rotate_deg = 20;
-      layer.level = 0.3;
-      // What comes after it reads every part of the point that it moved. (No tangent frame: the relief
-      // shears texture coordinates, see Body.)
-      stack::HeightMapLayer heights;
-      heights.map.file.path = "heights";
-      heights.map.tile = {3, 3};
-      heights.height = 0.02 * scale;
-      heights.taps = stack::Taps::bicubic;
-      return {layer, heights, object_layer("directions")};
-    };
-  };
-  return {
-      {"normal_map", normal_map(stack::Basis::mikktspace), false, true},
-      {"normal_map_derived", normal_map(stack::Basis::derived)},
-      {"normal_map_on_hex_tiles",
-       [=](double scale) {
-         std::vector<stack::Layer> layers = normal_map(stack::Basis::derived)(scale);
-         auto& layer = std::get<stack::NormalMapLayer>(layers[0]);
-         layer.map.tiling = stack::Tiling::hex;
-         layer.common.mask->tiling = stack::Tiling::hex;
-         return layers;
-       }},
-      {"object_normal_map",
-       [](double) -> std::vector<stack::Layer> {
-         stack::ObjectNormalMapLayer layer = object_layer("directions");
-         layer.map.tile = {2, 3};
-         return {layer};
-       }},
-      {"noise",
-       [](double) -> std::vector<stack::Layer> {
-         stack::NoiseLayer layer;
-         layer.noise.function = stack::NoiseKind::turbulence;
-         layer.noise.frequency = 1.3;
-         layer.noise.power = 2;
-         layer.common.scale = 0.1;
-         return {layer};
-       },
-       true},
-      {"parallax", parallax(stack::ParallaxMethod::occlusion), false, false, true},
-      {"parallax_offset", parallax(stack::ParallaxMethod::offset), false, false, true},
-  };
 }
 
 } // namespace surfgrad::engine::test

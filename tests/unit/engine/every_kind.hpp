@@ -22,6 +22,7 @@ struct KindCase {
   /// those that a map holds below the surface, which listing 7 mirrors.)
   bool stretches = false;
   bool vertex_tangents = false; ///< reads the interpolated frame of the vertices
+  bool one_sided = false;       ///< forward differences: looks the other way where rows run down
   bool moves = false;           ///< changes the point for what follows: needs a viewer in front
 };
 
