@@ -76,7 +76,15 @@ Scene demo_scene() {
   grain.map.tile = {3, 3};
   grain.map.rotate_deg = 30;
 
-  scene.materials.push_back({"demo", stack::BackFaces::flip, {plates, weave, stack::ResolveLayer{}, grain}});
+  stack::NoiseLayer dents; // a function of space: no texture coordinate
+  dents.common.key = "demo dents";
+  dents.common.scale = -0.03;
+  dents.noise.function = stack::NoiseKind::turbulence;
+  dents.noise.frequency = 4;
+  dents.noise.power = 3;
+
+  scene.materials.push_back(
+      {"demo", stack::BackFaces::flip, {plates, weave, stack::ResolveLayer{}, grain, dents}});
   scene.camera.pitch_deg = 35;
   return scene;
 }

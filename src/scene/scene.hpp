@@ -55,7 +55,7 @@ struct Scene {
 /// Throws InputError for whatever is wrong with any of the files, naming it and the place.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file);
 
-/// The built-in scene: a torus with two UV sets under a stack of four layers in two passes. Needs no
+/// The built-in scene: a torus with two UV sets under a stack of five layers in two passes. Needs no
 /// file.
 [[nodiscard]] Scene demo_scene();
 
