@@ -4,9 +4,9 @@
 #include "mesh/mikktspace.hpp"
 #include "mesh/morph.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -15,43 +15,38 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double radius = 0.42;
-constexpr double half_height = 1.15;
-
-vec3<double> tube(double s, double t) {
-  const double u = turn(s);
-  return {radius * std::sin(u), half_height * (2 * t - 1), radius * std::cos(u)};
+/// 1 at the middle of the sheet, 0 from radius 1 on; smooth.
+double middle(vec3<double> p) {
+  const double m = std::max(1 - p.x * p.x - p.y * p.y, 0.0);
+  return m * m;
 }
 
-vec3<double> twisted(double s, double t) {
-  // Opposite ways at both ends, less than half a turn each: straight lines to it do not meet the axis.
-  const double u = turn(s) + 0.62 * pi * (2 * t - 1);
-  return {radius * std::sin(u), half_height * (2 * t - 1), radius * std::cos(u)};
+vec3<double> flat(double s, double t) { return {2 * s - 1, 2 * t - 1, 0}; }
+
+vec3<double> swirled(double s, double t) {
+  const vec3<double> p = flat(s, t);
+  const double angle = 25 * pi / 36 * middle(p); // 125 degrees: with the stretch, a right angle
+  const double c = std::cos(angle);
+  const double d = std::sin(angle);
+  return {c * p.x - d * p.y, d * p.x + c * p.y, 0};
 }
 
-vec3<double> bent(double s, double t) {
-  const vec3<double> p = tube(s, t);
-  // The axis becomes an arc of 120 degrees, as long as it was.
-  constexpr double arc = 2 * pi / 3;
-  constexpr double r = 2 * half_height / arc;
-  const double a = p.y / r;
-  return {r - (r - p.x) * std::cos(a), (r - p.x) * std::sin(a), p.z};
+vec3<double> stretched(double s, double t) {
+  const vec3<double> p = flat(s, t);
+  return {1.6 * p.x, p.y, p.z};
 }
 
-vec3<double> swollen(double s, double t) {
-  const vec3<double> p = tube(s, t);
-  // Two leaning bulges, which stretch the texture slantwise.
-  const double wave = std::sin(turn(s) + 3 * pi * t);
-  const double swell = 1 + 0.9 * std::sin(pi * t) * (0.5 + 0.5 * wave);
-  return {swell * p.x, p.y, swell * p.z};
+vec3<double> bulged(double s, double t) {
+  const vec3<double> p = flat(s, t);
+  return {p.x, p.y, 0.6 * middle(p)};
 }
 
 using Shape = vec3<double> (*)(double, double);
-constexpr std::array<Shape, 3> targets{twisted, bent, swollen};
-constexpr std::array<double, 3> weights{0.8, 0.75, 0.9};
+constexpr std::array<Shape, 3> targets{swirled, stretched, bulged};
+constexpr std::array<double, 3> weights{1, 1, 1};
 
 vec3<double> morphed(double s, double t) {
-  const vec3<double> rest = tube(s, t);
+  const vec3<double> rest = flat(s, t);
   vec3<double> sum = rest;
   for (std::size_t i = 0; i < targets.size(); ++i) sum = sum + weights[i] * (targets[i](s, t) - rest);
   return sum;
@@ -98,10 +93,10 @@ std::vector<vec3<float>> differences(const std::vector<vec3<float>>& to,
 
 } // namespace
 
-mesh::TriangleMesh straight_tube(int cells) { return mesh_of(cells, tube); }
+mesh::TriangleMesh flat_sheet(int cells) { return mesh_of(cells, flat); }
 
-mesh::TriangleMesh morphed_tube(int cells, MorphedTangents tangents) {
-  mesh::TriangleMesh rest = straight_tube(cells);
+mesh::TriangleMesh morphed_sheet(int cells, MorphedTangents tangents) {
+  mesh::TriangleMesh rest = flat_sheet(cells);
   const std::vector<vec3<float>> rest_tangents = vertex_tangents(rest);
   std::vector<mesh::MorphTarget> pulls;
   for (const Shape& shape : targets) {

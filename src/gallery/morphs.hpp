@@ -11,14 +11,14 @@ enum class MorphedTangents {
   recomputed, ///< MikkTSpace of the morphed mesh, when they are asked for
 };
 
-/// An upright tube under three targets at once: one twists it, one bends it and one swells it. uv: s once
-/// around, t once along the tube; a seam at s = 0. Normals are those of the morphed surface whatever the
-/// tangents are.
+/// An upright sheet of edge 2 under three targets at once, which swirl its middle, stretch it sideways
+/// and make it bulge. One UV set over [0, 1]^2. Positions and normals are those of the morphed surface
+/// whatever the tangents are.
 ///
-/// cells  quads around, and as many along
-[[nodiscard]] mesh::TriangleMesh morphed_tube(int cells, MorphedTangents tangents);
+/// cells  quads along each edge
+[[nodiscard]] mesh::TriangleMesh morphed_sheet(int cells, MorphedTangents tangents);
 
-/// The tube before the morph.
-[[nodiscard]] mesh::TriangleMesh straight_tube(int cells);
+/// The sheet before the morph: a square facing +z.
+[[nodiscard]] mesh::TriangleMesh flat_sheet(int cells);
 
 } // namespace surfgrad::gallery

@@ -10,16 +10,16 @@ namespace {
 
 using Shared = std::shared_ptr<Maps>;
 
-// The highest stone: a ninth of its length.
-constexpr double depth = 0.09;
+// The highest stone: a fifth of its length.
+constexpr double depth = 0.12;
 constexpr vec2<double> laid{1, 1};
 
 /// The paved sheet, every panel from the same place: displacement would change an automatic frame.
 scene::Scene pavement(int cells) {
   scene::Scene scene = scene_of(sheet(cells, 0.35));
-  scene.camera.position = vec3<double>{-0.75, 1.85, 2.9};
-  scene.camera.target = vec3<double>{0, -0.1, 0.05};
-  light_from(scene, {-0.8, 0.75, -0.45});
+  scene.camera.position = vec3<double>{-0.45, 1.35, 2.35};
+  scene.camera.target = vec3<double>{0.05, -0.12, 0};
+  light_from(scene, {-0.8, 0.35, -0.5}, 4);
   return scene;
 }
 
@@ -135,7 +135,7 @@ scene::Scene lumpy_ball(bool displaced, Normals normals, bool bumped) {
     layer.noise.function = stack::NoiseKind::fractal_sum;
     layer.noise.frequency = 11;
     layer.noise.octaves = 3;
-    layer.common.scale = 0.022;
+    layer.common.scale = 0.014;
     layers.emplace_back(layer);
   }
   return scene;

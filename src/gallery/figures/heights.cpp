@@ -103,7 +103,9 @@ Figure magnified_heights(const Shared& maps) {
       stack::HeightMapLayer layer = heights(scene, *maps, "coarse heights", {1, 1});
       layer.map.filter = filter;
       layer.taps = taps;
-      layer.height = 0.4;
+      layer.height = 0.5;
+      scene.camera.zoom = 1.4;
+      light_from(scene, {-0.9, 0.45, -0.2});
       scene.materials[0].layers = {layer};
       return scene;
     };

@@ -9,14 +9,14 @@ namespace {
 
 using Shared = std::shared_ptr<Maps>;
 
-constexpr int cells = 64;
+constexpr int cells = 128; // fine enough that no triangle of the derived frame is seen
 
 scene::Scene studded(const Shared& maps, mesh::TriangleMesh mesh, stack::Basis basis) {
   scene::Scene scene = scene_of(std::move(mesh));
-  look_from(scene, 20, 8);
+  look_from(scene, 0, 0, 1.5);
   light_from(scene, {-0.8, 0.7, 0.6});
   scene.materials[0].layers = {
-      normal_map(scene, *maps, "studs", {.uv = 0, .tile = {3, 3}, .basis = basis}, 0.8)};
+      normal_map(scene, *maps, "studs", {.uv = 0, .tile = {2, 2}, .basis = basis}, 0.8)};
   return scene;
 }
 
@@ -24,19 +24,22 @@ scene::Scene studded(const Shared& maps, mesh::TriangleMesh mesh, stack::Basis b
 
 std::vector<Figure> morphing_figures(const Shared& maps) {
   const auto panel = [maps](MorphedTangents tangents, stack::Basis basis) {
-    return [maps, tangents, basis] { return studded(maps, morphed_tube(cells, tangents), basis); };
+    return [maps, tangents, basis] { return studded(maps, morphed_sheet(cells, tangents), basis); };
   };
-  const auto rest = [maps] { return studded(maps, straight_tube(cells), stack::Basis::mikktspace); };
+  const auto rest = [maps] { return studded(maps, flat_sheet(cells), stack::Basis::mikktspace); };
   using stack::Basis;
   return {
       {"morphing",
        "A morphed mesh: stale, blended and derived tangents",
-       "A studded tube is twisted, bent and swollen by three morph targets at once. Positions and normals "
+       "A studded sheet is swirled, stretched and bulged by three morph targets at once. Positions and "
+       "normals "
        "are right in every picture; only the tangents of the normal map differ. All domes are raised, and "
        "the sun stands at the upper left.",
-       {{"rest", "before the morph", "Domes lit at the upper left.", Way::choice, "", rest},
+       {{"rest", "before the morph", "Round domes in rows, all lit at the upper left.", Way::choice, "",
+         rest},
         {"stale", "tangents of the shape before",
-         "Where the tube has turned, domes are lit from any side, as dents are; some are squeezed flat.",
+         "In the middle, which has turned by more than a right angle, domes are lit at the lower left, as "
+         "dents would be.",
          Way::wrong, "derived", panel(MorphedTangents::stale, Basis::mikktspace)},
         {"blended", "tangents blended as positions are",
          "Nearly right where one target prevails; where they act together the light on the domes is turned.",

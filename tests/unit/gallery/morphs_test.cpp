@@ -15,12 +15,12 @@
 namespace surfgrad::gallery {
 namespace {
 
-/// Composed normals of the tube under a studded normal map, one a pixel of a picture.
+/// Composed normals of the sheet under a studded normal map, one a pixel of a picture.
 image::Image normals_of(int cells, MorphedTangents tangents, stack::Basis basis) {
   Maps maps;
-  scene::Scene scene = scene_of(morphed_tube(cells, tangents));
-  look_from(scene, 20, 8);
-  scene.materials[0].layers = {normal_map(scene, maps, "studs", {.tile = {3, 3}, .basis = basis})};
+  scene::Scene scene = scene_of(morphed_sheet(cells, tangents));
+  look_from(scene, 0, 0);
+  scene.materials[0].layers = {normal_map(scene, maps, "studs", {.tile = {2, 2}, .basis = basis})};
   return render::render(scene, {.width = 256, .height = 256, .aov = render::Aov::normal}).image;
 }
 
@@ -66,10 +66,10 @@ TEST(Morph, DerivedBasisStaysWithinHalfADegreeOfTangentsRecomputedOnTheMorphedMe
 }
 
 TEST(Morph, TangentsDoNotChangeWhatElseTheMeshIs) {
-  const mesh::TriangleMesh recomputed = morphed_tube(12, MorphedTangents::recomputed);
+  const mesh::TriangleMesh recomputed = morphed_sheet(12, MorphedTangents::recomputed);
   EXPECT_FALSE(mesh::has_tangents(recomputed, 0));
   for (const MorphedTangents tangents : {MorphedTangents::stale, MorphedTangents::blended}) {
-    const mesh::TriangleMesh mesh = morphed_tube(12, tangents);
+    const mesh::TriangleMesh mesh = morphed_sheet(12, tangents);
     ASSERT_TRUE(mesh::has_tangents(mesh, 0));
     for (const vec4<float>& t : mesh.tangent_spaces[0].corners)
       ASSERT_NEAR(std::hypot(t.x, t.y, t.z), 1, 1e-6); // rounded to float
