@@ -120,11 +120,13 @@ Figure magnified_heights(const Shared& maps) {
       {{"nearest", "three taps without a filter", "Texels are flat: all slope is in the lines between them.",
         Way::wrong, "bicubic", panel(Taps::three, Filter::nearest)},
        {"one", "one tap a pixel, linear filter",
-        "Linear heights have facets: the light breaks along the edges of the texels, and differences "
-        "across a block of 2x2 samples fray them.",
+        "Linear heights have facets: the light breaks along the edges of the texels. A block of 2x2 samples "
+        "shares one slope; at two samples a pixel that is a pixel, and the picture is nearly that of three "
+        "taps.",
         Way::older, "bicubic", panel(Taps::one, Filter::trilinear)},
-       {"three", "three taps, linear filter", "The same facets with clean edges.", Way::older, "bicubic",
-        panel(Taps::three, Filter::trilinear)},
+       {"three", "three taps, linear filter",
+        "The same facets: every sample measures its own slope, which is that of its texel.", Way::older,
+        "bicubic", panel(Taps::three, Filter::trilinear)},
        {"bicubic", "bicubic", "The slope of a smooth surface through the same texels.", Way::right, "",
         panel(Taps::bicubic, Filter::trilinear)}}};
 }

@@ -28,27 +28,29 @@ std::vector<Figure> morphing_figures(const Shared& maps) {
   };
   const auto rest = [maps] { return studded(maps, flat_sheet(cells), stack::Basis::mikktspace); };
   using stack::Basis;
-  return {
-      {"morphing",
-       "A morphed mesh: stale, blended and derived tangents",
-       "A studded sheet is swirled, stretched and bulged by three morph targets at once. Positions and "
-       "normals "
-       "are right in every picture; only the tangents of the normal map differ. All domes are raised, and "
-       "the sun stands at the upper left.",
-       {{"rest", "before the morph", "Round domes in rows, all lit at the upper left.", Way::choice, "",
-         rest},
-        {"stale", "tangents of the shape before",
-         "In the middle, which has turned by more than a right angle, domes are lit at the lower left, as "
-         "dents would be.",
-         Way::wrong, "derived", panel(MorphedTangents::stale, Basis::mikktspace)},
-        {"blended", "tangents blended as positions are",
-         "Nearly right where one target prevails; where they act together the light on the domes is turned.",
-         Way::older, "derived", panel(MorphedTangents::blended, Basis::mikktspace)},
-        {"derived", "derived per pixel", "All domes are lit at the upper left. No tangents are needed.",
-         Way::right, "", panel(MorphedTangents::recomputed, Basis::derived)},
-        {"recomputed", "MikkTSpace of the morphed mesh",
-         "The truth, at the price of new tangents for every pose: the picture of the derived frame.",
-         Way::right, "", panel(MorphedTangents::recomputed, Basis::mikktspace)}}}};
+  return {{"morphing",
+           "A morphed mesh: stale, blended and derived tangents",
+           "A studded sheet is swirled, stretched and bulged by three morph targets at once. Positions and "
+           "normals are right in every picture; only the tangents of the normal map differ. All domes are "
+           "raised, and "
+           "the sun stands at the upper left.",
+           {{"rest", "before the morph", "Round domes in rows, all lit at the upper left.", Way::choice, "",
+             rest},
+            {"stale", "tangents of the shape before",
+             "The middle has turned by a right angle and the light on its domes has not: right of the middle "
+             "they "
+             "are lit at the lower left.",
+             Way::wrong, "derived", panel(MorphedTangents::stale, Basis::mikktspace)},
+            {"blended", "tangents blended as positions are",
+             "Differences of unit vectors forget how far each target stretches. The light has turned too "
+             "far: right "
+             "of the middle domes are lit at the upper right.",
+             Way::older, "derived", panel(MorphedTangents::blended, Basis::mikktspace)},
+            {"derived", "derived per pixel", "All domes are lit at the upper left. No tangents are needed.",
+             Way::right, "", panel(MorphedTangents::recomputed, Basis::derived)},
+            {"recomputed", "MikkTSpace of the morphed mesh",
+             "The truth, at the price of new tangents for every pose: the picture of the derived frame.",
+             Way::right, "", panel(MorphedTangents::recomputed, Basis::mikktspace)}}}};
 }
 
 } // namespace surfgrad::gallery
