@@ -59,8 +59,10 @@ TEST(Morph, DerivedBasisStaysWithinHalfADegreeOfTangentsRecomputedOnTheMorphedMe
   EXPECT_LT(derived.mean, 0.5);
   // The derived frame is constant over a triangle, vertex tangents are interpolated: first order in its size.
   EXPECT_LT(derived.mean, 0.4 * coarse.mean);
-  // Stale tangents are turned by up to a right angle and more; the studs' slopes bring that to the normals.
-  EXPECT_GT(stale.mean, 10);
+  // In the middle stale tangents are a right angle off, towards the border they are right; the slopes of the
+  // studs bring part of that to the normals.
+  EXPECT_GT(stale.mean, 5);
+  EXPECT_GT(stale.mean, blended.mean);
   // Differences of unit tangents forget how far each target stretches.
   EXPECT_GT(blended.mean, 5 * derived.mean);
 }
