@@ -16,6 +16,9 @@ namespace surfgrad::gallery {
 [[nodiscard]] std::vector<Figure> basis_figures(const std::shared_ptr<Maps>& maps);
 [[nodiscard]] std::vector<Figure> back_face_figures(const std::shared_ptr<Maps>& maps);
 [[nodiscard]] std::vector<Figure> transform_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> height_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> displacement_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> morphing_figures(const std::shared_ptr<Maps>& maps);
 
 /// Every built-in figure, in the order of the page.
 [[nodiscard]] std::vector<Figure> built_in_figures();

@@ -67,6 +67,43 @@ Image ripples() {
   });
 }
 
+template <class Height>
+Image height_map_of(int texels, const Height& height) {
+  Image map = image::make_image(texels, texels, 1, image::Depth::unorm16);
+  for (int y = 0; y < texels; ++y)
+    for (int x = 0; x < texels; ++x) {
+      const double h = std::clamp(height((x + 0.5) / texels, (y + 0.5) / texels), 0.0, 1.0);
+      map.at(x, y, 0) = static_cast<float>(std::floor(h * 65535 + 0.5) / 65535);
+    }
+  return map;
+}
+
+Image cobbles() {
+  return height_map_of(size, [](double s, double t) {
+    constexpr int courses = 4;
+    constexpr int in_a_course = 3;
+    const double row = std::floor(courses * t);
+    const double along = in_a_course * s + (static_cast<int>(row) % 2 == 0 ? 0.0 : 0.5);
+    const double stone = std::floor(along) - in_a_course * std::floor(std::floor(along) / in_a_course);
+    // A product of two rounded ridges: a stone with broad shoulders in a joint.
+    const auto ridge = [](double v) {
+      const double u = 2 * scene::fraction(v) - 1;
+      return 1 - u * u * u * u * u * u;
+    };
+    const double shape = ridge(along) * ridge(courses * t);
+    // Heights of the stones, far enough apart to be told from each other: fifths in no order.
+    const double worn = scene::fraction(0.4 * row + 0.6 * stone + 0.2 * row * stone);
+    return (0.6 + 0.4 * worn) * shape;
+  });
+}
+
+Image coarse_heights() {
+  return height_map_of(16, [](double s, double t) {
+    // Three bumps across, one of them higher, and a dip: slopes of every direction.
+    return 0.5 * scene::arch(2 * s) * scene::arch(2 * t) + 0.5 * scene::arch(s + t);
+  });
+}
+
 Image rock_object() {
   Image map = image::make_image(size, size, 3, image::Depth::unorm16);
   for (int y = 0; y < size; ++y)
@@ -114,6 +151,8 @@ const std::map<std::string, Make>& makers() {
       {"grain", [](Maps&) { return grain(); }},
       {"studs", [](Maps&) { return studs(); }},
       {"ripples", [](Maps&) { return ripples(); }},
+      {"cobbles", [](Maps&) { return cobbles(); }},
+      {"coarse heights", [](Maps&) { return coarse_heights(); }},
       {"rock", rock},
       {"rock object", [](Maps&) { return rock_object(); }},
       {"linear", [](Maps& m) { return blended<blend_linear>(m, "studs", "ripples"); }},

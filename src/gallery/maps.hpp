@@ -22,6 +22,8 @@ namespace surfgrad::gallery {
 ///   rock            tangent-space normals of the rock on its mesh, baked by this program
 ///   rock object     the same as object-space normals
 ///   linear, udn, whiteout, reoriented         studs and ripples made one map
+///   cobbles         heights: worn stones in courses, rounded at their rims
+///   coarse heights  heights of 16x16 texels, smooth: to be magnified
 ///   flat linear, flat udn, flat whiteout, flat reoriented     flat and studs made one map
 class Maps {
  public:

@@ -231,4 +231,21 @@ mesh::TriangleMesh scroll() {
   return mesh;
 }
 
+mesh::TriangleMesh sheet(int cells, double bend) {
+  mesh::TriangleMesh mesh;
+  append_patch(
+      mesh, cells, cells,
+      [bend](double s, double t) {
+        const double x = 2 * s - 1;
+        const double arc = 1 - 2 * t; // along +z
+        if (bend == 0) return SurfacePoint{{x, 0, arc}, {0, 1, 0}};
+        const vec3<double> n{0, std::cos(bend * arc), std::sin(bend * arc)};
+        return SurfacePoint{vec3<double>{x, -1 / bend, 0} + (1 / bend) * n, n};
+      },
+      [](double s, double t) {
+        return vec2<double>{s, t};
+      });
+  return mesh;
+}
+
 } // namespace surfgrad::gallery

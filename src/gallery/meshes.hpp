@@ -62,4 +62,8 @@ inline constexpr int rock_all_octaves = 8;
 /// facing outwards.
 [[nodiscard]] mesh::TriangleMesh scroll();
 
+/// A square of edge 2 around the origin, facing up; uv runs over [0, 1]^2, s along +x and t along -z. With
+/// bend > 0 it is part of a cylinder about an axis along x that lies 1 / bend below.
+[[nodiscard]] mesh::TriangleMesh sheet(int cells, double bend = 0);
+
 } // namespace surfgrad::gallery

@@ -113,9 +113,50 @@ TEST(Figures, DifferAtAGlanceWhereOneIsOlderOrWrongAndAgreeWhereTheyShould) {
   // 16-bit codes, then filtered as slopes instead of directions).
   EXPECT_LT(differ("bases-vertex.png", "bases-derived.png"), 0.5);
   EXPECT_LT(differ("spaces-tangent.png", "spaces-object.png"), 0.7);
+  EXPECT_LT(differ("morphing-derived.png", "morphing-recomputed.png"), 1.0);
   // A flat layer changes nothing but by its own code: 32768 / 65535 is not quite one half.
   EXPECT_LT(differ("blending-flat-surface-gradient.png", "blending-flat-whiteout.png"), 0.02);
   EXPECT_LT(differ("blending-flat-surface-gradient.png", "blending-flat-reoriented.png"), 0.02);
+}
+
+TEST(Figures, OcclusionIsThePictureOfTheDisplacedMeshAwayFromItsBorder) {
+  std::vector<Figure> figures = built_in_figures();
+  const auto parallax = std::ranges::find(figures, "parallax", &Figure::id);
+  ASSERT_NE(parallax, figures.end());
+  // The middle of the picture: stones of two courses, seen whole.
+  const auto middle_of = [&](const char* id) {
+    const scene::Scene scene = find(*parallax, id)->scene();
+    const image::Image all = render::render(scene, {.width = 96, .height = 96, .samples = 2}).image;
+    image::Image part = image::make_image(40, 30, 3);
+    for (int y = 0; y < part.height; ++y)
+      for (int x = 0; x < part.width; ++x)
+        for (int c = 0; c < 3; ++c) part.at(x, y, c) = all.at(28 + x, 33 + y, c);
+    return part;
+  };
+  const image::Image displaced = middle_of("displaced");
+  const auto apart = [&](const char* id) {
+    const double difference = mean_difference(middle_of(id), displaced);
+    std::printf("  %-9s %.2f codes\n", id, difference);
+    return difference;
+  };
+  const double occlusion = apart("occlusion");
+  // All of it lies in the joints, a pixel wide: parallax reads their heights from the mip level of a pixel,
+  // the mesh from the finest; and it takes the sheet for flat over the way of a ray.
+  EXPECT_LT(occlusion, 2.5);
+  for (const char* other : {"bump", "offset", "limited"}) EXPECT_GT(apart(other), 3 * occlusion) << other;
+}
+
+TEST(Figures, HeightsInUnitsOfTheObjectGrowWithIt) {
+  std::vector<Figure> figures = built_in_figures();
+  const auto scaled = std::ranges::find(figures, "scaled-heights", &Figure::id);
+  ASSERT_NE(scaled, figures.end());
+  const auto picture = [&](const char* id) {
+    return render::render(find(*scaled, id)->scene(), {.width = 64, .height = 64, .samples = 2}).image;
+  };
+  const image::Image small = picture("small");
+  // The frame grows with the ball by a power of two: but for rounding it is the same computation.
+  EXPECT_LT(mean_difference(picture("object"), small), 0.01);
+  EXPECT_GT(mean_difference(picture("scene"), small), seen_at_a_glance);
 }
 
 TEST(Figures, OnlyThoseThatAreToGoWrongMakeTheStageWarn) {

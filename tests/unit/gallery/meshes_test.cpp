@@ -1,6 +1,7 @@
 // The built-in meshes: closed, facing outwards, with the texture coordinates they claim.
 
 #include "gallery/meshes.hpp"
+#include "gallery/morphs.hpp"
 #include "support/meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,8 @@ std::array<std::uint32_t, 3> corners(const mesh::TriangleMesh& mesh, std::size_t
 
 TEST(GalleryMeshes, NormalsAreUnitAndTrianglesFaceAlongThem) {
   for (const mesh::TriangleMesh& mesh :
-       {rock_mesh(), closed_surface(8, ball_point), half_mirrored_torus(), scroll()}) {
+       {rock_mesh(), closed_surface(8, ball_point), half_mirrored_torus(), scroll(), sheet(3), sheet(6, 0.35),
+        flat_sheet(4), morphed_sheet(32, MorphedTangents::recomputed)}) {
     for (const vec3<float>& n : mesh.normals) ASSERT_NEAR(length(widen(n)), 1, 1e-6);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       const auto [a, b, c] = corners(mesh, i);
