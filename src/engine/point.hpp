@@ -76,22 +76,13 @@ template <Scalar T>
   return saturated(stretch * (transpose(in_lanes<T>(point.placement.inverse_linear)) * gradient));
 }
 
-/// Surface gradient in world space of a volume gradient in object space or world space. An object-space
-/// bump follows the object's transform to first order: the object's normal N becomes M N, of which only the
-/// part along n counts as height. Linear in the gradient, so that gradients may be summed before.
+/// Surface gradient in world space of a volume gradient in object space or world space. The surface is
+/// displaced in that space, then transformed: exact under every transform (Golubev, equation 33). Linear in
+/// the gradient where the transform keeps angles, so gradients that act together are summed before.
 ///
-/// degenerate  a transform without inverse gives zero for gradients in object space
-template <Scalar T>
-[[nodiscard]] vec3<T> from_gradient_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
-  return from_volume_gradient(point.frame.normal, gradient_in_world(point, world, gradient));
-}
-
-/// The same for a surface that is displaced in its space, then transformed: exact under every transform
-/// (Golubev, equation 33), but not linear in the gradient. The two are equal where the transform keeps
-/// angles.
-///
-/// degenerate  as above; where the transform leans a slope over, so that the normal lies below the surface,
-///             it is mirrored at the surface (listing 7)
+/// degenerate  a transform without inverse gives zero for gradients in object space; a result beyond the
+///             scalar's range saturates; where the transform leans a slope over, so that the normal lies
+///             below the surface, it is mirrored at the surface (listing 7)
 template <Scalar T>
 [[nodiscard]] vec3<T> from_displacement_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
   const vec3<T> n = point.frame.normal;

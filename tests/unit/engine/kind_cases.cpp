@@ -154,10 +154,10 @@ std::vector<KindCase> every_kind() {
       {.name = "triplanar", .layers = triplanar(stack::TriplanarContent::normal), .stretches = true},
       {.name = "triplanar_normals", .layers = triplanar(stack::TriplanarContent::object_normal)},
       {.name = "decal_box", .layers = decal(DecalShape::box, DecalBlend::replace)},
-      {.name = "decal_cone", .layers = decal(DecalShape::cone, DecalBlend::mix)},
+      {.name = "decal_cone", .layers = decal(DecalShape::cone, DecalBlend::mix), .stretches = true},
       {.name = "decal_sphere", .layers = decal(DecalShape::sphere, DecalBlend::add)},
       {.name = "decal_capsule", .layers = decal(DecalShape::capsule, DecalBlend::mix)},
-      {.name = "decal_wedge", .layers = decal(DecalShape::wedge, DecalBlend::add)},
+      {.name = "decal_wedge", .layers = decal(DecalShape::wedge, DecalBlend::add), .stretches = true},
       {.name = "parallax", .layers = parallax(stack::ParallaxMethod::occlusion), .moves = true},
       {.name = "parallax_offset", .layers = parallax(stack::ParallaxMethod::offset), .moves = true},
   };
