@@ -76,24 +76,19 @@ template <Scalar T>
   return saturated(stretch * (transpose(in_lanes<T>(point.placement.inverse_linear)) * gradient));
 }
 
-/// Surface gradient in world space of a volume gradient in object space or world space. The surface is
-/// displaced in that space, then transformed: exact under every transform (Golubev, equation 33). Linear in
-/// the gradient where the transform keeps angles, so gradients that act together are summed before.
+/// What a volume gradient G in object space or world space adds to the sum of a pass. A surface bumped in
+/// object space is displaced there, then transformed: N - G becomes M^-T (N - G) as a whole (Golubev,
+/// equation 33), which in units of n is n - (M^-T G - dot(N, G) n). That is linear in G, so layers add,
+/// mix and cancel under every transform. Where the transform is uneven it leans off the tangent plane.
 ///
-/// degenerate  a transform without inverse gives zero for gradients in object space; a result beyond the
-///             scalar's range saturates; where the transform leans a slope over, so that the normal lies
-///             below the surface, it is mirrored at the surface (listing 7)
+/// degenerate  a transform without inverse gives zero for tangential gradients in object space; a result
+///             beyond the scalar's range saturates
 template <Scalar T>
-[[nodiscard]] vec3<T> from_displacement_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
+[[nodiscard]] vec3<T> from_gradient_in_space(const Point<T>& point, bool world, vec3<T> gradient) {
   const vec3<T> n = point.frame.normal;
-  const vec3<T> raw = gradient_in_world(point, world, gradient);
-  const vec3<T> g = from_volume_gradient(n, raw);
-  if (world) return g;
-  // The part of the transformed N - G along n: 1 where M N is upright. Flipped back faces turn both N and
-  // the height over.
-  const T lean = dot(normal_in_space(point, world), gradient) - dot(n, raw);
-  const T along = T(value_t<T>(1)) + point.frame.resolve_sign * lean;
-  return reciprocal_or_zero(max(abs(along), T(epsilon_v<T>) * max_abs(g))) * g;
+  if (world) return from_volume_gradient(n, gradient);
+  const T along = dot(normal_in_space(point, world), gradient);
+  return saturated(gradient_in_world(point, world, gradient) - along * n);
 }
 
 } // namespace surfgrad::engine

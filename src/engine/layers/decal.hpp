@@ -152,7 +152,7 @@ template <LaneScalar T>
 
 template <LaneScalar T>
 [[nodiscard]] vec3<T> projected(const Point<T>& point, bool world, const DecalSum<T>& decals, vec3<T> sum) {
-  const vec3<T> g = saturated(from_displacement_in_space(point, world, decals.gradient));
+  const vec3<T> g = from_gradient_in_space(point, world, decals.gradient);
   return select<T>(decals.any, saturated(decals.factor * sum + g), sum);
 }
 

@@ -122,17 +122,7 @@ template <LaneScalar T>
   vec3<T> g = from_parametric_derivative(normal, space.dp_dx, space.dp_dy, dh);
   const T zero = T(value_t<T>(0));
   const vec3<T> none{zero, zero, zero};
-  if (!world) {
-    // Displaced first, then transformed (Golubev, equation 33): the whole N - G through the inverse
-    // transpose, which is transform_normal up to a positive factor. The resolve's sign enters twice: on
-    // a back face in mode flip the surface is the front's, seen from behind.
-    const T sign = point.frame.resolve_sign;
-    const vec3<T> displaced = normalize_or_zero(normal - sign * saturated(g));
-    const mask_t<T> flat = max_abs(g) == zero; // adds nothing, rounding neither
-    g = sign * from_perturbed_normal(point.frame.normal,
-                                     transpose(in_lanes<T>(point.placement.inverse_linear)) * displaced);
-    g = select<T>(flat, none, g);
-  }
+  if (!world) g = from_gradient_in_space(point, world, saturated(g));
   return select<T>(collapsed, none, g);
 }
 

@@ -58,7 +58,7 @@ template <LaneScalar T>
   degenerate = degenerate | none;
   const vec3<T> scaled = constant<T>(layer.scale) * select<T>(none, vec3<T>{zero, zero, zero}, g);
   const vec3<T> slope = detail::limited_slope(scaled);
-  if (!layer.perlin1985) return from_displacement_in_space(point, layer.world, slope);
+  if (!layer.perlin1985) return from_gradient_in_space(point, layer.world, slope);
   const vec3<T> n = point.frame.normal;
   return from_perturbed_normal(n, n - gradient_in_world(point, layer.world, slope));
 }

@@ -57,7 +57,7 @@ template <LaneScalar T>
   const PlaneFootprints<T> planes = on_planes(in_space(point, layer.world), planar_convention);
   const vec2<T> d = derivative(layer.bumps, of_plane(planes.st, layer.axis),
                                of_plane(planes.dst_dx, layer.axis), of_plane(planes.dst_dy, layer.axis));
-  return from_displacement_in_space(point, layer.world, planar_gradient(layer.axis, d, planar_convention));
+  return from_gradient_in_space(point, layer.world, planar_gradient(layer.axis, d, planar_convention));
 }
 
 } // namespace surfgrad::engine

@@ -43,8 +43,8 @@ template <LaneScalar T>
     return derivative(bumps, of_plane(planes.st, axis), of_plane(planes.dst_dx, axis),
                       of_plane(planes.dst_dy, axis));
   });
-  return from_displacement_in_space(point, layer.world,
-                                    triplanar_gradient(weights, d[0], d[1], d[2], layer.convention));
+  return from_gradient_in_space(point, layer.world,
+                                triplanar_gradient(weights, d[0], d[1], d[2], layer.convention));
 }
 
 /// Surface gradient of maps of whole normals (Golubev, equation 45; an object's scale by equation 36).
