@@ -16,6 +16,10 @@ namespace surfgrad::gallery {
 [[nodiscard]] std::vector<Figure> basis_figures(const std::shared_ptr<Maps>& maps);
 [[nodiscard]] std::vector<Figure> back_face_figures(const std::shared_ptr<Maps>& maps);
 [[nodiscard]] std::vector<Figure> transform_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> volume_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> projection_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> decal_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> tiling_figures(const std::shared_ptr<Maps>& maps);
 
 /// Every built-in figure, in the order of the page.
 [[nodiscard]] std::vector<Figure> built_in_figures();

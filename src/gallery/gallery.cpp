@@ -61,7 +61,8 @@ std::vector<Figure> built_in_figures() {
   const auto maps = std::make_shared<Maps>();
   std::vector<Figure> all;
   for (const auto group :
-       {detail_figures, blending_figures, basis_figures, back_face_figures, transform_figures}) {
+       {detail_figures, blending_figures, basis_figures, back_face_figures, transform_figures, volume_figures,
+        projection_figures, decal_figures, tiling_figures}) {
     std::vector<Figure> figures = group(maps);
     std::move(figures.begin(), figures.end(), std::back_inserter(all));
   }

@@ -4,10 +4,10 @@
 #include "gallery/blending.hpp"
 #include "gallery/meshes.hpp"
 #include "gallery/parts.hpp"
+#include "gallery/periodic_noise.hpp"
+#include "gallery/relief_maps.hpp"
 #include "scene/demo_maps.hpp"
 #include "scene/map_functions.hpp"
-
-#include <surfgrad/noise.hpp>
 
 #include <tbb/task_arena.h>
 
@@ -25,23 +25,12 @@ Image flat() {
   return scene::normal_map_of(size, [](double, double) { return 0.0; });
 }
 
-/// A hash of lattice points that repeats after `period` of them along x and y.
-struct PeriodicHash {
-  int period;
-  [[nodiscard]] auto operator()(index_t<double> x, index_t<double> y, index_t<double> z) const {
-    const auto wrapped = [this](index_t<double> i) { return ((i % period) + period) % period; };
-    return lattice_hash<double>(wrapped(x), wrapped(y), z);
-  }
-};
-
 Image grain() {
   return scene::normal_map_of(size, [](double s, double t) {
     double sum = 0;
     double amplitude = 0.03;
     for (int cells = 8; cells <= 64; cells *= 2) {
-      // Planes half way between lattice layers, where the noise is liveliest.
-      const vec3<double> p{cells * s, cells * t, cells + 0.5};
-      sum += amplitude * perlin(p, PeriodicHash{cells}).value;
+      sum += amplitude * periodic_noise(s, t, cells);
       amplitude *= 0.6;
     }
     return sum;
@@ -114,6 +103,11 @@ const std::map<std::string, Make>& makers() {
       {"grain", [](Maps&) { return grain(); }},
       {"studs", [](Maps&) { return studs(); }},
       {"ripples", [](Maps&) { return ripples(); }},
+      {"letter", [](Maps&) { return letter_normals(size); }},
+      {"letter cube", [](Maps&) { return letter_cube(size / 2); }},
+      {"cobbles", [](Maps&) { return cobble_heights(size); }},
+      {"crags", [](Maps&) { return crag_normals(size); }},
+      {"strata", [](Maps&) { return strata_normals(size); }},
       {"rock", rock},
       {"rock object", [](Maps&) { return rock_object(); }},
       {"linear", [](Maps& m) { return blended<blend_linear>(m, "studs", "ripples"); }},

@@ -19,6 +19,11 @@ namespace surfgrad::gallery {
 ///   grain           isotropic noise over four octaves
 ///   studs           domes, steep at their rims
 ///   ripples         fine waves, steep, across the domes
+///   letter          a raised F on a field of knobs: which way up it lies is plain to see
+///   letter cube     the same as a cube map: the F on the face +z, knobs all around
+///   cobbles         heights of rounded stones
+///   crags           a rock face of a few large forms and much fine detail
+///   strata          layered rock: ledges along s
 ///   rock            tangent-space normals of the rock on its mesh, baked by this program
 ///   rock object     the same as object-space normals
 ///   linear, udn, whiteout, reoriented         studs and ripples made one map

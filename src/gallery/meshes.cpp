@@ -176,6 +176,26 @@ vec2<double> nearest_in_chart(vec2<double> uv, double inset) {
 
 SurfacePoint ball_point(vec3<double> direction) { return {direction, direction}; }
 
+SurfacePoint rounded_cube_point(vec3<double> d) {
+  // |x|^8 + |y|^8 + |z|^8 = 1, whose gradient is along the seventh powers.
+  const auto seventh = [](double v) { return v * v * v * v * v * v * v; };
+  const vec3<double> g{seventh(d.x), seventh(d.y), seventh(d.z)};
+  const double r = 1 / std::pow(dot(g, d), 0.125);
+  return {r * d, normalize_or_zero(g)};
+}
+
+SurfacePoint pill_point(vec3<double> d) {
+  constexpr double radius = 0.55;
+  constexpr double half = 0.8;
+  const double around = std::hypot(d.y, d.z);
+  if (std::abs(d.x) * radius <= half * around)
+    return {(radius / around) * d, vec3<double>{0, d.y / around, d.z / around}};
+  const vec3<double> centre{std::copysign(half, d.x), 0, 0};
+  const double along = dot(d, centre);
+  const double r = along + std::sqrt(along * along - half * half + radius * radius);
+  return {r * d, normalize_or_zero(r * d - centre)};
+}
+
 SurfacePoint rock_point(vec3<double> d, int octaves) {
   // Somewhere in the noise where the boulder looks well.
   const vec3<double> place{3.7, 1.2, 8.4};
@@ -212,6 +232,39 @@ mesh::TriangleMesh half_mirrored_torus() {
       mesh, around, across, [&](double s, double t) { return point(0.5 + 0.5 * s, t); },
       [](double s, double t) {
         return vec2<double>{0.5 - 0.5 * s, t};
+      });
+  return mesh;
+}
+
+mesh::TriangleMesh barrel() {
+  constexpr double radius = 2.5;
+  constexpr double half_width = 2.5;
+  constexpr double degree = std::numbers::pi / 180;
+  constexpr double front = 45 * degree;
+  constexpr double whole = (45 + 65) * degree;
+  mesh::TriangleMesh mesh;
+  append_patch(
+      mesh, 8, 48,
+      [](double s, double t) {
+        const double angle = front - whole * t;
+        const vec3<double> n{0, std::cos(angle), std::sin(angle)};
+        return SurfacePoint{vec3<double>{half_width * (2 * s - 1), -radius, 0} + radius * n, n};
+      },
+      [](double s, double t) {
+        return vec2<double>{2 * half_width * s, radius * whole * t};
+      });
+  return mesh;
+}
+
+mesh::TriangleMesh ground() {
+  mesh::TriangleMesh mesh;
+  append_patch(
+      mesh, 1, 1,
+      [](double s, double t) {
+        return SurfacePoint{{8 * s - 4, 0, 4 - 8 * t}, {0, 1, 0}};
+      },
+      [](double s, double t) {
+        return vec2<double>{s, t};
       });
   return mesh;
 }
