@@ -56,14 +56,20 @@ Image ripples() {
   });
 }
 
-Image rock_object() {
+/// Object-space normals of a shape on the unwrap of the closed surfaces.
+template <class Normal>
+Image object_normals(const Normal& normal) {
   Image map = image::make_image(size, size, 3, image::Depth::unorm16);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const vec2<double> uv{(x + 0.5) / size, (y + 0.5) / size};
-      scene::set_normal(map, x, y, rock_point(unwrapped_direction(uv), rock_all_octaves).normal);
+      scene::set_normal(map, x, y, normal(unwrapped_direction(uv)));
     }
   return map;
+}
+
+Image rock_object() {
+  return object_normals([](vec3<double> d) { return rock_point(d, rock_all_octaves).normal; });
 }
 
 /// What `surfgrad bake` makes of the rock under its object-space normals, continued into the gutters
@@ -107,9 +113,9 @@ const std::map<std::string, Make>& makers() {
       {"letter cube", [](Maps&) { return letter_cube(size / 2); }},
       {"cobbles", [](Maps&) { return cobble_heights(size); }},
       {"crags", [](Maps&) { return crag_normals(size); }},
-      {"strata", [](Maps&) { return strata_normals(size); }},
       {"rock", rock},
       {"rock object", [](Maps&) { return rock_object(); }},
+      {"ledged rock", [](Maps&) { return object_normals(ledged_rock_normal); }},
       {"linear", [](Maps& m) { return blended<blend_linear>(m, "studs", "ripples"); }},
       {"udn", [](Maps& m) { return blended<blend_udn>(m, "studs", "ripples"); }},
       {"whiteout", [](Maps& m) { return blended<blend_whiteout>(m, "studs", "ripples"); }},

@@ -23,9 +23,9 @@ namespace surfgrad::gallery {
 ///   letter cube     the same as a cube map: the F on the face +z, knobs all around
 ///   cobbles         heights of rounded stones
 ///   crags           a rock face of a few large forms and much fine detail
-///   strata          layered rock: ledges along s
 ///   rock            tangent-space normals of the rock on its mesh, baked by this program
 ///   rock object     the same as object-space normals
+///   ledged rock     object-space normals of a rock with level ledges, on the rock's mesh
 ///   linear, udn, whiteout, reoriented         studs and ripples made one map
 ///   flat linear, flat udn, flat whiteout, flat reoriented     flat and studs made one map
 class Maps {

@@ -53,6 +53,9 @@ void append_patch(mesh::TriangleMesh& mesh, int columns, int rows,
 /// A boulder of about unit radius: noise raises and dents it, more finely with more octaves.
 [[nodiscard]] SurfacePoint rock_point(vec3<double> direction, int octaves);
 
+/// Normal of the rock if ledges ran around it, level on top and steep below. unit length.
+[[nodiscard]] vec3<double> ledged_rock_normal(vec3<double> direction);
+
 /// Octaves that the rock's mesh has, and those of the rock that its normal map was baked from.
 inline constexpr int rock_mesh_octaves = 3;
 inline constexpr int rock_all_octaves = 8;

@@ -19,7 +19,4 @@ namespace surfgrad::gallery {
 /// Tileable normal map of a rock face: few large forms, which betray repetition, and fine ones.
 [[nodiscard]] image::Image crag_normals(int size);
 
-/// Tileable normal map of layered rock: ledges along s, a little wavy.
-[[nodiscard]] image::Image strata_normals(int size);
-
 } // namespace surfgrad::gallery

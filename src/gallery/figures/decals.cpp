@@ -22,8 +22,8 @@ stack::DecalLayer decal(scene::Scene& scene, Maps& maps, stack::DecalShape shape
 }
 
 struct View {
-  double yaw_deg = 25;
-  double pitch_deg = 15;
+  double yaw_deg = 8;
+  double pitch_deg = 12;
   double zoom = 1;
 };
 
@@ -73,7 +73,7 @@ Figure shapes(const Shared& maps) {
           {{"box", "box",
             "Parallel projection from the right, over an edge: the letter is drawn out where the "
             "surface turns away.",
-            Way::choice, "", decal_on(maps, rounded_cube_point, {15, 15}, Shape::box, box)},
+            Way::choice, "", decal_on(maps, rounded_cube_point, {28, 18}, Shape::box, box)},
            {"cone", "cone", "Projected from a point, as a lamp would: knobs grow with the distance.",
             Way::choice, "", decal_on(maps, ball_point, {}, Shape::cone, cone)},
            {"sphere", "sphere", "A cube map seen from a point below the surface.", Way::choice, "",
@@ -81,9 +81,9 @@ Figure shapes(const Shared& maps) {
            {"wedge", "wedge",
             "A cone whose apex is drawn out to a line: the image's middle column fills what is between its "
             "two halves.",
-            Way::choice, "", decal_on(maps, pill_point, {15, 15, 1.1}, Shape::wedge, wedge)},
+            Way::choice, "", decal_on(maps, pill_point, {}, Shape::wedge, wedge)},
            {"capsule", "capsule", "A sphere drawn out likewise, along the body's axis.", Way::choice, "",
-            decal_on(maps, pill_point, {15, 15, 1.1}, Shape::capsule, capsule)}}};
+            decal_on(maps, pill_point, {}, Shape::capsule, capsule)}}};
 }
 
 Figure blends(const Shared& maps) {
@@ -98,7 +98,7 @@ Figure blends(const Shared& maps) {
       where.size = {1.2, 1.2, 1.2};
       stack::DecalLayer layer = decal(scene, *maps, stack::DecalShape::box, where);
       layer.blend = blend;
-      scene.materials[0].layers = {normal_map(scene, *maps, "rock"), layer};
+      scene.materials[0].layers = {normal_map(scene, *maps, "rock", {}, 0.6), layer};
       return scene;
     };
   };

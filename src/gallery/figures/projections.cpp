@@ -13,50 +13,49 @@ namespace {
 using Shared = std::shared_ptr<Maps>;
 using Layers = std::vector<stack::Layer>;
 
-stack::TriplanarLayer triplanar(scene::Scene& scene, Maps& maps, const char* name, double tile,
-                                double scale) {
-  stack::TriplanarLayer layer;
-  layer.common.key = name;
-  layer.common.scale = scale;
-  layer.files = {maps.in(scene, name)};
-  layer.map.tile = {tile, tile};
-  return layer;
-}
-
 Figure figure_3_rock(const Shared& maps) {
-  const auto panel = [maps](bool resolved) {
-    return [maps, resolved] {
+  const auto panel = [maps](bool detailed, bool resolved) {
+    return [maps, detailed, resolved] {
       scene::Scene scene = scene_of(rock_mesh());
-      look_from(scene, 40, 8);
+      look_from(scene, 40, 22);
       light_from(scene, {-0.9, 0.7, 0.6});
-      const stack::NormalMapLayer baked = normal_map(scene, *maps, "rock", {}, 1.6);
-      stack::TriplanarLayer detail = triplanar(scene, *maps, "strata", 0.9, 1.2);
+      stack::ObjectNormalMapLayer baked;
+      baked.common.key = "ledges";
+      baked.map.file = maps->in(scene, "ledged rock");
+      Layers layers{baked};
+      if (resolved) layers.push_back(stack::ResolveLayer{});
+      stack::TriplanarLayer detail;
+      detail.common.key = "detail";
+      detail.common.scale = 0.7;
+      const stack::FileName rough = maps->in(scene, "grain");
+      detail.files = {rough, maps->in(scene, "ripples"), rough};
       detail.sharpness = 8;
-      scene.materials[0].layers =
-          resolved ? Layers{baked, stack::ResolveLayer{}, detail} : Layers{baked, detail};
+      if (detailed) layers.push_back(detail);
+      scene.materials[0].layers = layers;
       return scene;
     };
   };
   return {"figure-3-rock",
           "Triplanar detail by the mesh's normal and by the resolved one (figure 3, a and b)",
-          "A coarse rock under its baked normal map, with layered rock projected along three axes. What a "
-          "plane shows should depend on the direction of the surface, most of which is in the baked map.",
-          {{"a", "(a) by the normal of the mesh",
-            "The ledges take no notice of the crests of the baked map and lie over all alike.", Way::older,
-            "b", panel(false)},
-           {"b", "(b) after a resolve",
-            "The bumped surface chooses the plane and carries the detail: ledges break at crests and belong "
-            "to the flank they lie on.",
-            Way::right, "", panel(true)}}};
+          "A rock whose ledges are in its baked normal map alone. Three planes are projected on it: ripples "
+          "from above, grain from the sides. Which one a point shows should depend on its direction.",
+          {{"baked", "the baked map alone", "Level ledges between steep flanks.", Way::choice, "",
+            panel(false, false)},
+           {"a", "(a) planes by the normal of the mesh",
+            "Ripples cover what is up on the mesh, a cap, and run over ledges and flanks alike.", Way::older,
+            "b", panel(true, false)},
+           {"b", "(b) planes by the normal after a resolve",
+            "Ripples lie on every ledge, down to the lowest, and grain on every flank.", Way::right, "",
+            panel(true, true)}}};
 }
 
 Figure figure_3_parallax(const Shared& maps) {
   const auto panel = [maps](Layers (*detail)(scene::Scene&, Maps&)) {
     return [maps, detail] {
       scene::Scene scene = scene_of(barrel());
-      scene.camera.position = vec3<double>{0.9, 1.5, 2.9};
-      scene.camera.target = vec3<double>{0.1, -0.25, 0.1};
-      light_from(scene, {-0.9, 0.55, 0.1});
+      scene.camera.position = vec3<double>{0.9, 1.5, 2.5};
+      scene.camera.target = vec3<double>{0.1, -0.4, 0.1};
+      light_from(scene, {-0.9, 0.42, -0.25});
       stack::ParallaxLayer cobbles;
       cobbles.common.key = "cobbles";
       cobbles.map.file = maps->in(scene, "cobbles");
@@ -78,9 +77,11 @@ Figure figure_3_parallax(const Shared& maps) {
       {{"none", "parallax alone",
         "Stones hide what is behind them and cast shadows, and are smooth as plaster.", Way::choice, "",
         panel([](scene::Scene&, Maps&) { return Layers{}; })},
-       {"c", "(c) a detail normal map", "Fine grain that lies on each stone and turns with its flanks.",
+       {"c", "(c) a detail normal map",
+        "Grain lies on each stone and turns with its flanks; where they are steep it is drawn out, for it "
+        "has the sheet's texture coordinate.",
         Way::right, "", panel([](scene::Scene& scene, Maps& m) {
-          return Layers{normal_map(scene, m, "grain", {.tile = {2, 2}, .basis = stack::Basis::derived}, 1.2)};
+          return Layers{normal_map(scene, m, "grain", {.tile = {1, 1}, .basis = stack::Basis::derived}, 0.8)};
         })},
        {"d", "(d) dents of turbulence",
         "A function of space, sampled on the virtual surface: dents run over tops and flanks alike, "
@@ -88,8 +89,8 @@ Figure figure_3_parallax(const Shared& maps) {
         Way::right, "", panel([](scene::Scene&, Maps&) {
           stack::NoiseLayer dents;
           dents.common.key = "dents";
-          dents.common.scale = -0.12;
-          dents.noise = {.function = stack::NoiseKind::turbulence, .octaves = 4, .power = 3, .frequency = 9};
+          dents.common.scale = -0.25;
+          dents.noise = {.function = stack::NoiseKind::turbulence, .octaves = 3, .power = 3, .frequency = 6};
           return Layers{dents};
         })}}};
 }
@@ -107,7 +108,9 @@ Figure projections(const Shared& maps) {
       look_from(scene, 20, 28);
       light_from(scene, {-0.7, 0.9, 0.6});
       if (!planar) {
-        stack::TriplanarLayer layer = triplanar(scene, *maps, "plates", 1, 1);
+        stack::TriplanarLayer layer;
+        layer.common.key = "plates";
+        layer.files = {maps->in(scene, "plates")};
         layer.space = space;
         scene.materials[0].layers = {layer};
         return scene;

@@ -10,9 +10,9 @@ std::vector<Figure> tiling_figures(const std::shared_ptr<Maps>& maps) {
   const auto panel = [maps](stack::Tiling tiling, double turn_deg) {
     return [maps, tiling, turn_deg] {
       scene::Scene scene = scene_of(ground());
-      scene.camera.position = vec3<double>{0, 3.2, 4.6};
-      scene.camera.target = vec3<double>{0, 0, 0.4};
-      light_from(scene, {-0.8, 0.6, 0.2});
+      scene.camera.position = vec3<double>{0, 4.2, 4.2};
+      scene.camera.target = vec3<double>{0, 0, 0.6};
+      light_from(scene, {-0.9, 0.5, 0.1});
       stack::NormalMapLayer layer =
           normal_map(scene, *maps, "crags", {.tile = {9, 9}, .basis = stack::Basis::derived});
       layer.map.tiling = tiling;

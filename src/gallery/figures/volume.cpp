@@ -28,7 +28,7 @@ stack::NoiseLayer noise(const stack::NoiseFunction& function, double scale) {
 }
 
 Figure figure_1() {
-  stack::NoiseLayer right = noise({.function = stack::NoiseKind::perlin, .frequency = 4}, 0.3);
+  stack::NoiseLayer right = noise({.function = stack::NoiseKind::perlin, .frequency = 4}, 0.45);
   stack::NoiseLayer older = right;
   older.method = stack::NoiseMethod::perlin1985;
   return {
@@ -56,8 +56,8 @@ Figure noises() {
       "Functions of space as heights over a ball: exact gradients, no texture, no seam, no pole.",
       {panel("perlin", "Perlin", "Hills and hollows of one size; on a closer look they keep to a lattice.",
              {.function = Kind::perlin, .frequency = 4}, 0.2),
-       panel("simplex", "simplex", "Much the same without preferred directions.",
-             {.function = Kind::simplex, .frequency = 4}, 0.2),
+       panel("simplex", "simplex", "Rounder, and without preferred directions.",
+             {.function = Kind::simplex, .frequency = 2.5}, 0.25),
        panel("worley-f1", "Worley, F1",
              "The distance to the nearest point of many: pits that meet in sharp ridges.",
              {.function = Kind::worley, .worley = WorleyKind::f1, .frequency = 5}, 0.16),
@@ -65,13 +65,14 @@ Figure noises() {
              "How much farther the second nearest is: facets with sharp joints, like cracked mud.",
              {.function = Kind::worley, .worley = WorleyKind::f2_minus_f1, .frequency = 5}, 0.1),
        panel("turbulence", "turbulence", "Octaves of the noise's magnitude: billows between sharp creases.",
-             {.function = Kind::turbulence, .octaves = 5, .frequency = 3}, 0.25),
+             {.function = Kind::turbulence, .octaves = 4, .frequency = 2}, 0.35),
        panel("ridged", "ridged",
              "Octaves of crests: the creases of turbulence turned to ridges, finely rough.",
-             {.function = Kind::ridged, .octaves = 5, .frequency = 2.5}, 0.1),
+             {.function = Kind::ridged, .octaves = 4, .gain = 0.4, .frequency = 1.5}, 0.2),
        panel("dented", "turbulence to the third power, inwards",
              "Power flattens what is low and deepens what is high: dents in a smooth ball.",
-             {.function = Kind::turbulence, .octaves = 4, .power = 3, .frequency = 3}, -0.4)}};
+             {.function = Kind::turbulence, .octaves = 3, .gain = 0.35, .power = 3, .frequency = 2.5},
+             -0.7)}};
 }
 
 } // namespace
