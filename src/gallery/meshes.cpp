@@ -186,7 +186,7 @@ SurfacePoint rounded_cube_point(vec3<double> d) {
 
 SurfacePoint pill_point(vec3<double> d) {
   constexpr double radius = 0.55;
-  constexpr double half = 0.8;
+  constexpr double half = 0.6;
   const double around = std::hypot(d.y, d.z);
   if (std::abs(d.x) * radius <= half * around)
     return {(radius / around) * d, vec3<double>{0, d.y / around, d.z / around}};
@@ -228,11 +228,11 @@ vec3<double> ledged_rock_normal(vec3<double> d) {
   constexpr double ledges = 3.2; // in a unit of height
   const double level = ledges * (d.y + 0.12 * wave.value);
   const vec3<double> level_gradient = ledges * (vec3<double>{0, 1, 0} + 0.24 * wave.gradient);
-  // Upwards the rock leans out by `depth`, and draws back by as much within a quarter of the way.
-  constexpr double depth = 0.12;
-  constexpr double width = 0.25;
+  // Upwards the rock leans out by `depth`, and draws back by as much within less than half of the way.
+  constexpr double depth = 0.2;
+  constexpr double width = 0.45;
   const double place = level - std::floor(level);
-  const double edge = 2 * std::clamp((place - 0.7) / width, 0.0, 1.0) - 1;
+  const double edge = 2 * std::clamp((place - 0.5) / width, 0.0, 1.0) - 1;
   // A smooth bump whose mean over the ledge, edge from -1 to 1, is 1.
   const double bump = 1.875 * (1 - edge * edge) * (1 - edge * edge);
   const double slope = depth * (1 - bump / width);

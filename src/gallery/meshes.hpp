@@ -47,7 +47,7 @@ void append_patch(mesh::TriangleMesh& mesh, int columns, int rows,
 /// A cube from -1 to 1 with rounded edges.
 [[nodiscard]] SurfacePoint rounded_cube_point(vec3<double> direction);
 
-/// A pill along x: a cylinder of radius 0.55 and length 1.6 with half balls at its ends.
+/// A pill along x: a cylinder of radius 0.55 and length 1.2 with half balls at its ends.
 [[nodiscard]] SurfacePoint pill_point(vec3<double> direction);
 
 /// A boulder of about unit radius: noise raises and dents it, more finely with more octaves.

@@ -70,7 +70,7 @@ Cells periodic_cells(double s, double t, int cells) {
 double cobbles(double s, double t) {
   constexpr int stones = 5;
   const Cells cell = periodic_cells(s, t, stones);
-  const double joint = scene::smooth(-0.1, 0.7, cell.second - cell.nearest);
+  const double joint = scene::smooth(-0.05, 0.45, cell.second - cell.nearest);
   const double round = 1 - 0.45 * cell.nearest * cell.nearest;
   const double stone = joint * round * (0.62 + 0.38 * cell.id);
   return std::clamp(0.96 * stone + 0.02 + 0.03 * periodic_noise(s, t, 24), 0.0, 1.0);

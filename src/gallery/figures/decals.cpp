@@ -61,11 +61,11 @@ Figure shapes(const Shared& maps) {
   sphere.radius = 0.7;
   stack::DecalInstance capsule = from_front(0.25);
   capsule.radius = 0.42;
-  capsule.length = 1;
+  capsule.length = 0.8;
   stack::DecalInstance wedge = from_front(1.6);
   wedge.angle_deg = 40;
   wedge.depth = 1.5;
-  wedge.length = 1;
+  wedge.length = 0.8;
   return {"decals",
           "Decals of five shapes",
           "A letter on a field of knobs, projected onto smooth bodies. The knobs show how far each shape "

@@ -26,9 +26,10 @@ Figure figure_3_rock(const Shared& maps) {
       if (resolved) layers.push_back(stack::ResolveLayer{});
       stack::TriplanarLayer detail;
       detail.common.key = "detail";
-      detail.common.scale = 0.7;
+      detail.common.scale = 0.9;
       const stack::FileName rough = maps->in(scene, "grain");
       detail.files = {rough, maps->in(scene, "ripples"), rough};
+      detail.map.tile = {0.6, 0.6};
       detail.sharpness = 8;
       if (detailed) layers.push_back(detail);
       scene.materials[0].layers = layers;
@@ -55,7 +56,7 @@ Figure figure_3_parallax(const Shared& maps) {
       scene::Scene scene = scene_of(barrel());
       scene.camera.position = vec3<double>{0.9, 1.5, 2.5};
       scene.camera.target = vec3<double>{0.1, -0.4, 0.1};
-      light_from(scene, {-0.9, 0.42, -0.25});
+      light_from(scene, {-0.9, 0.5, 0.15});
       stack::ParallaxLayer cobbles;
       cobbles.common.key = "cobbles";
       cobbles.map.file = maps->in(scene, "cobbles");
@@ -89,7 +90,7 @@ Figure figure_3_parallax(const Shared& maps) {
         Way::right, "", panel([](scene::Scene&, Maps&) {
           stack::NoiseLayer dents;
           dents.common.key = "dents";
-          dents.common.scale = -0.25;
+          dents.common.scale = -0.13;
           dents.noise = {.function = stack::NoiseKind::turbulence, .octaves = 3, .power = 3, .frequency = 6};
           return Layers{dents};
         })}}};

@@ -28,7 +28,7 @@ stack::NoiseLayer noise(const stack::NoiseFunction& function, double scale) {
 }
 
 Figure figure_1() {
-  stack::NoiseLayer right = noise({.function = stack::NoiseKind::perlin, .frequency = 4}, 0.45);
+  stack::NoiseLayer right = noise({.function = stack::NoiseKind::perlin, .frequency = 7}, 0.2);
   stack::NoiseLayer older = right;
   older.method = stack::NoiseMethod::perlin1985;
   return {
@@ -68,11 +68,10 @@ Figure noises() {
              {.function = Kind::turbulence, .octaves = 4, .frequency = 2}, 0.35),
        panel("ridged", "ridged",
              "Octaves of crests: the creases of turbulence turned to ridges, finely rough.",
-             {.function = Kind::ridged, .octaves = 4, .gain = 0.4, .frequency = 1.5}, 0.2),
-       panel("dented", "turbulence to the third power, inwards",
+             {.function = Kind::ridged, .octaves = 5, .gain = 0.45, .frequency = 2.2}, 0.2),
+       panel("dented", "turbulence to the fourth power, inwards",
              "Power flattens what is low and deepens what is high: dents in a smooth ball.",
-             {.function = Kind::turbulence, .octaves = 3, .gain = 0.35, .power = 3, .frequency = 2.5},
-             -0.7)}};
+             {.function = Kind::turbulence, .octaves = 2, .power = 4, .frequency = 3}, -0.45)}};
 }
 
 } // namespace
