@@ -55,7 +55,7 @@ Figure shapes(const Shared& maps) {
   box.direction = {-1, 0, -1};
   box.size = {1.5, 1.3, 1.4};
   stack::DecalInstance cone = from_front(2.4);
-  cone.angle_deg = 50;
+  cone.angle_deg = 40;
   cone.depth = 2.2;
   stack::DecalInstance sphere = from_front(0.45);
   sphere.radius = 0.7;
@@ -63,7 +63,7 @@ Figure shapes(const Shared& maps) {
   capsule.radius = 0.42;
   capsule.length = 0.8;
   stack::DecalInstance wedge = from_front(1.6);
-  wedge.angle_deg = 40;
+  wedge.angle_deg = 36;
   wedge.depth = 1.5;
   wedge.length = 0.8;
   return {"decals",
