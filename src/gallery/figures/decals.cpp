@@ -62,10 +62,10 @@ Figure shapes(const Shared& maps) {
   stack::DecalInstance capsule = from_front(0.25);
   capsule.radius = 0.42;
   capsule.length = 0.8;
-  stack::DecalInstance wedge = from_front(1.6);
-  wedge.angle_deg = 36;
+  stack::DecalInstance wedge = from_front(2.2);
+  wedge.angle_deg = 42;
   wedge.depth = 1.5;
-  wedge.length = 0.8;
+  wedge.length = 0.6;
   return {"decals",
           "Decals of five shapes",
           "A letter on a field of knobs, projected onto smooth bodies. The knobs show how far each shape "
@@ -74,14 +74,14 @@ Figure shapes(const Shared& maps) {
             "Parallel projection from the right, over an edge: the letter is drawn out where the "
             "surface turns away.",
             Way::choice, "", decal_on(maps, rounded_cube_point, {28, 18}, Shape::box, box)},
-           {"cone", "cone", "Projected from a point, as a lamp would: knobs grow with the distance.",
-            Way::choice, "", decal_on(maps, ball_point, {}, Shape::cone, cone)},
+           {"cone", "cone", "Projected from a point in front, as by a lamp.", Way::choice, "",
+            decal_on(maps, ball_point, {}, Shape::cone, cone)},
            {"sphere", "sphere", "A cube map seen from a point below the surface.", Way::choice, "",
             decal_on(maps, ball_point, {}, Shape::sphere, sphere)},
            {"wedge", "wedge",
             "A cone whose apex is drawn out to a line: the image's middle column fills what is between its "
             "two halves.",
-            Way::choice, "", decal_on(maps, pill_point, {}, Shape::wedge, wedge)},
+            Way::choice, "", decal_on(maps, rounded_cube_point, {-20, 14}, Shape::wedge, wedge)},
            {"capsule", "capsule", "A sphere drawn out likewise, along the body's axis.", Way::choice, "",
             decal_on(maps, pill_point, {}, Shape::capsule, capsule)}}};
 }
