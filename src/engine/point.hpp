@@ -57,6 +57,15 @@ template <Scalar T>
   return {{p.x, p.y, p.z}, f.dp_dx, f.dp_dy};
 }
 
+/// Whether a position in object space is wanted of an object whose transform has no inverse: footprints
+/// and gradients are zero there.
+template <Scalar T>
+[[nodiscard]] mask_t<T> lacks_space(const Point<T>& point, bool world) {
+  const mat3<double>& m = point.placement.inverse_linear;
+  const T singular = T(static_cast<value_t<T>>(max_abs(m.x) == 0 && max_abs(m.y) == 0 && max_abs(m.z) == 0));
+  return world ? mask_t<T>(singular < singular) : mask_t<T>(T(value_t<T>(0)) < singular);
+}
+
 /// The base normal of the pass in object space or world space: unit, or zero where there is none.
 template <Scalar T>
 [[nodiscard]] vec3<T> normal_in_space(const Point<T>& point, bool world) {

@@ -202,7 +202,7 @@ template <LaneScalar T>
 template <LaneScalar T>
 [[nodiscard]] vec2<T> slope_of_heights(const TiledMap& tiled, vec2<T> st, T lod) {
   const std::array<T, 2> texel = sample_at<2>(tiled, st, lod);
-  return image::mirrored_slope(st, vec2<T>{texel[0], texel[1]}, tiled.wrap);
+  return image::wrapped_slope(st, vec2<T>{texel[0], texel[1]}, tiled.wrap);
 }
 
 /// The derivative by st' of the heights whose derivatives by the whole map `tiled` holds (by_coordinate

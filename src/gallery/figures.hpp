@@ -19,6 +19,10 @@ namespace surfgrad::gallery {
 [[nodiscard]] std::vector<Figure> height_figures(const std::shared_ptr<Maps>& maps);
 [[nodiscard]] std::vector<Figure> displacement_figures(const std::shared_ptr<Maps>& maps);
 [[nodiscard]] std::vector<Figure> morphing_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> volume_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> projection_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> decal_figures(const std::shared_ptr<Maps>& maps);
+[[nodiscard]] std::vector<Figure> tiling_figures(const std::shared_ptr<Maps>& maps);
 
 /// Every built-in figure, in the order of the page.
 [[nodiscard]] std::vector<Figure> built_in_figures();

@@ -60,8 +60,9 @@ bool all_pictures_are_in(const fs::path& folder, const Figure& figure) {
 std::vector<Figure> built_in_figures() {
   const auto maps = std::make_shared<Maps>();
   std::vector<Figure> all;
-  for (const auto group : {detail_figures, blending_figures, basis_figures, back_face_figures,
-                           transform_figures, height_figures, displacement_figures, morphing_figures}) {
+  for (const auto group : {volume_figures, detail_figures, projection_figures, tiling_figures, decal_figures,
+                           height_figures, displacement_figures, blending_figures, basis_figures,
+                           morphing_figures, back_face_figures, transform_figures}) {
     std::vector<Figure> figures = group(maps);
     std::move(figures.begin(), figures.end(), std::back_inserter(all));
   }

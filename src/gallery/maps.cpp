@@ -4,10 +4,10 @@
 #include "gallery/blending.hpp"
 #include "gallery/meshes.hpp"
 #include "gallery/parts.hpp"
+#include "gallery/periodic_noise.hpp"
+#include "gallery/relief_maps.hpp"
 #include "scene/demo_maps.hpp"
 #include "scene/map_functions.hpp"
-
-#include <surfgrad/noise.hpp>
 
 #include <tbb/task_arena.h>
 
@@ -25,23 +25,12 @@ Image flat() {
   return scene::normal_map_of(size, [](double, double) { return 0.0; });
 }
 
-/// A hash of lattice points that repeats after `period` of them along x and y.
-struct PeriodicHash {
-  int period;
-  [[nodiscard]] auto operator()(index_t<double> x, index_t<double> y, index_t<double> z) const {
-    const auto wrapped = [this](index_t<double> i) { return ((i % period) + period) % period; };
-    return lattice_hash<double>(wrapped(x), wrapped(y), z);
-  }
-};
-
 Image grain() {
   return scene::normal_map_of(size, [](double s, double t) {
     double sum = 0;
     double amplitude = 0.03;
     for (int cells = 8; cells <= 64; cells *= 2) {
-      // Planes half way between lattice layers, where the noise is liveliest.
-      const vec3<double> p{cells * s, cells * t, cells + 0.5};
-      sum += amplitude * perlin(p, PeriodicHash{cells}).value;
+      sum += amplitude * periodic_noise(s, t, cells);
       amplitude *= 0.6;
     }
     return sum;
@@ -78,7 +67,7 @@ Image height_map_of(int texels, const Height& height) {
   return map;
 }
 
-Image cobbles() {
+Image paving() {
   return height_map_of(size, [](double s, double t) {
     constexpr int courses = 4;
     constexpr int in_a_course = 3;
@@ -104,14 +93,20 @@ Image coarse_heights() {
   });
 }
 
-Image rock_object() {
+/// Object-space normals of a shape on the unwrap of the closed surfaces.
+template <class Normal>
+Image object_normals(const Normal& normal) {
   Image map = image::make_image(size, size, 3, image::Depth::unorm16);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const vec2<double> uv{(x + 0.5) / size, (y + 0.5) / size};
-      scene::set_normal(map, x, y, rock_point(unwrapped_direction(uv), rock_all_octaves).normal);
+      scene::set_normal(map, x, y, normal(unwrapped_direction(uv)));
     }
   return map;
+}
+
+Image rock_object() {
+  return object_normals([](vec3<double> d) { return rock_point(d, rock_all_octaves).normal; });
 }
 
 /// What `surfgrad bake` makes of the rock under its object-space normals, continued into the gutters
@@ -151,10 +146,15 @@ const std::map<std::string, Make>& makers() {
       {"grain", [](Maps&) { return grain(); }},
       {"studs", [](Maps&) { return studs(); }},
       {"ripples", [](Maps&) { return ripples(); }},
-      {"cobbles", [](Maps&) { return cobbles(); }},
+      {"paving", [](Maps&) { return paving(); }},
       {"coarse heights", [](Maps&) { return coarse_heights(); }},
+      {"letter", [](Maps&) { return letter_normals(size); }},
+      {"letter cube", [](Maps&) { return letter_cube(size / 2); }},
+      {"cobbles", [](Maps&) { return cobble_heights(size); }},
+      {"crags", [](Maps&) { return crag_normals(size); }},
       {"rock", rock},
       {"rock object", [](Maps&) { return rock_object(); }},
+      {"ledged rock", [](Maps&) { return object_normals(ledged_rock_normal); }},
       {"linear", [](Maps& m) { return blended<blend_linear>(m, "studs", "ripples"); }},
       {"udn", [](Maps& m) { return blended<blend_udn>(m, "studs", "ripples"); }},
       {"whiteout", [](Maps& m) { return blended<blend_whiteout>(m, "studs", "ripples"); }},

@@ -19,8 +19,13 @@ namespace surfgrad::gallery {
 ///   grain           isotropic noise over four octaves
 ///   studs           domes, steep at their rims
 ///   ripples         fine waves, steep, across the domes
+///   letter          a raised F on a field of knobs: which way up it lies is plain to see
+///   letter cube     the same as a cube map: the F on the face +z, knobs all around
+///   cobbles         heights of rounded stones
+///   crags           a rock face of a few large forms and much fine detail
 ///   rock            tangent-space normals of the rock on its mesh, baked by this program
 ///   rock object     the same as object-space normals
+///   ledged rock     object-space normals of a rock with level ledges, on the rock's mesh
 ///   linear, udn, whiteout, reoriented         studs and ripples made one map
 ///   cobbles         heights: worn stones in courses, rounded at their rims
 ///   coarse heights  heights of 16x16 texels, smooth: to be magnified

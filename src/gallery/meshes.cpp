@@ -176,17 +176,68 @@ vec2<double> nearest_in_chart(vec2<double> uv, double inset) {
 
 SurfacePoint ball_point(vec3<double> direction) { return {direction, direction}; }
 
+SurfacePoint rounded_cube_point(vec3<double> d) {
+  // |x|^8 + |y|^8 + |z|^8 = 1, whose gradient is along the seventh powers.
+  const auto seventh = [](double v) { return v * v * v * v * v * v * v; };
+  const vec3<double> g{seventh(d.x), seventh(d.y), seventh(d.z)};
+  const double r = 1 / std::pow(dot(g, d), 0.125);
+  return {r * d, normalize_or_zero(g)};
+}
+
+SurfacePoint pill_point(vec3<double> d) {
+  constexpr double radius = 0.55;
+  constexpr double half = 0.6;
+  const double around = std::hypot(d.y, d.z);
+  if (std::abs(d.x) * radius <= half * around)
+    return {(radius / around) * d, vec3<double>{0, d.y / around, d.z / around}};
+  const vec3<double> centre{std::copysign(half, d.x), 0, 0};
+  const double along = dot(d, centre);
+  const double r = along + std::sqrt(along * along - half * half + radius * radius);
+  return {r * d, normalize_or_zero(r * d - centre)};
+}
+
+namespace {
+
+// Somewhere in the noise where the boulder looks well.
+constexpr vec3<double> rock_place{3.7, 1.2, 8.4};
+
+/// Radius of the boulder without its crags, and the radius' gradient.
+Noise<double> rock_radius(vec3<double> d, int octaves) {
+  const Noise<double> shape = fractal_sum(1.3 * d + rock_place, {octaves, 2.03, 0.42});
+  return {1 + 0.34 * shape.value, (0.34 * 1.3) * shape.gradient};
+}
+
+/// The point r(d) d, d of unit length: its normal is r d less the part of r's gradient along the sphere.
+SurfacePoint point_at_radius(vec3<double> d, const Noise<double>& r) {
+  const vec3<double> along = r.gradient - dot(r.gradient, d) * d;
+  return {r.value * d, normalize_or_zero(r.value * d - along)};
+}
+
+} // namespace
+
 SurfacePoint rock_point(vec3<double> d, int octaves) {
-  // Somewhere in the noise where the boulder looks well.
-  const vec3<double> place{3.7, 1.2, 8.4};
-  const Noise<double> shape = fractal_sum(1.3 * d + place, {std::min(octaves, 3), 2.03, 0.42});
+  const Noise<double> shape = rock_radius(d, std::min(octaves, rock_mesh_octaves));
   // Crests and clefts begin where the mesh ends.
-  const Noise<double> crags = ridged(3.1 * d + place, {octaves - rock_mesh_octaves, 2.11, 0.46});
-  const double r = 1 + 0.34 * shape.value + 0.055 * crags.value;
-  const vec3<double> g = (0.34 * 1.3) * shape.gradient + (0.055 * 3.1) * crags.gradient;
-  // For p = r(d) d on the unit sphere the normal is r d less the part of r's gradient along the sphere.
-  const vec3<double> along = g - dot(g, d) * d;
-  return {r * d, normalize_or_zero(r * d - along)};
+  const Noise<double> crags = ridged(3.1 * d + rock_place, {octaves - rock_mesh_octaves, 2.11, 0.46});
+  return point_at_radius(
+      d, {shape.value + 0.055 * crags.value, shape.gradient + (0.055 * 3.1) * crags.gradient});
+}
+
+vec3<double> ledged_rock_normal(vec3<double> d) {
+  const Noise<double> wave = perlin(2.0 * d + rock_place);
+  constexpr double ledges = 3.2; // in a unit of height
+  const double level = ledges * (d.y + 0.12 * wave.value);
+  const vec3<double> level_gradient = ledges * (vec3<double>{0, 1, 0} + 0.24 * wave.gradient);
+  // Upwards the rock leans out by `depth`, and draws back by as much within less than half of the way.
+  constexpr double depth = 0.2;
+  constexpr double width = 0.45;
+  const double place = level - std::floor(level);
+  const double edge = 2 * std::clamp((place - 0.5) / width, 0.0, 1.0) - 1;
+  // A smooth bump whose mean over the ledge, edge from -1 to 1, is 1.
+  const double bump = 1.875 * (1 - edge * edge) * (1 - edge * edge);
+  const double slope = depth * (1 - bump / width);
+  const Noise<double> shape = rock_radius(d, rock_mesh_octaves);
+  return point_at_radius(d, {shape.value, shape.gradient + slope * level_gradient}).normal;
 }
 
 mesh::TriangleMesh rock_mesh() {
@@ -212,6 +263,39 @@ mesh::TriangleMesh half_mirrored_torus() {
       mesh, around, across, [&](double s, double t) { return point(0.5 + 0.5 * s, t); },
       [](double s, double t) {
         return vec2<double>{0.5 - 0.5 * s, t};
+      });
+  return mesh;
+}
+
+mesh::TriangleMesh barrel() {
+  constexpr double radius = 2.5;
+  constexpr double half_width = 2.5;
+  constexpr double degree = std::numbers::pi / 180;
+  constexpr double front = 45 * degree;
+  constexpr double whole = (45 + 65) * degree;
+  mesh::TriangleMesh mesh;
+  append_patch(
+      mesh, 8, 48,
+      [](double s, double t) {
+        const double angle = front - whole * t;
+        const vec3<double> n{0, std::cos(angle), std::sin(angle)};
+        return SurfacePoint{vec3<double>{half_width * (2 * s - 1), -radius, 0} + radius * n, n};
+      },
+      [](double s, double t) {
+        return vec2<double>{2 * half_width * s, radius * whole * t};
+      });
+  return mesh;
+}
+
+mesh::TriangleMesh ground() {
+  mesh::TriangleMesh mesh;
+  append_patch(
+      mesh, 1, 1,
+      [](double s, double t) {
+        return SurfacePoint{{8 * s - 4, 0, 4 - 8 * t}, {0, 1, 0}};
+      },
+      [](double s, double t) {
+        return vec2<double>{s, t};
       });
   return mesh;
 }

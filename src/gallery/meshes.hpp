@@ -44,8 +44,17 @@ void append_patch(mesh::TriangleMesh& mesh, int columns, int rows,
 /// The unit sphere.
 [[nodiscard]] SurfacePoint ball_point(vec3<double> direction);
 
+/// A cube from -1 to 1 with rounded edges.
+[[nodiscard]] SurfacePoint rounded_cube_point(vec3<double> direction);
+
+/// A pill along x: a cylinder of radius 0.55 and length 1.2 with half balls at its ends.
+[[nodiscard]] SurfacePoint pill_point(vec3<double> direction);
+
 /// A boulder of about unit radius: noise raises and dents it, more finely with more octaves.
 [[nodiscard]] SurfacePoint rock_point(vec3<double> direction, int octaves);
+
+/// Normal of the rock if ledges ran around it, level on top and steep below. unit length.
+[[nodiscard]] vec3<double> ledged_rock_normal(vec3<double> direction);
 
 /// Octaves that the rock's mesh has, and those of the rock that its normal map was baked from.
 inline constexpr int rock_mesh_octaves = 3;
@@ -57,6 +66,13 @@ inline constexpr int rock_all_octaves = 8;
 /// A coarse torus about the y axis whose two halves share their texture: the half at x < 0 is mirrored
 /// in UV set 0.
 [[nodiscard]] mesh::TriangleMesh half_mirrored_torus();
+
+/// A part of a horizontal cylinder of radius 2.5 along x, like the back of a barrel: 5 wide, from 65 degrees
+/// at the rear over the top, at the origin, to 45 at the front. One UV set, a period per unit of length.
+[[nodiscard]] mesh::TriangleMesh barrel();
+
+/// A level square, 8 units wide, with one UV set over [0, 1]^2.
+[[nodiscard]] mesh::TriangleMesh ground();
 
 /// A sheet that curls up to a scroll, so that both of its sides are seen from the front. Open,
 /// facing outwards.

@@ -33,7 +33,7 @@ void check_keys(Word content, const Value& value) {
   }
   require_content(content, value, "range", {Word::derivative});
   require_content(content, value, "neutral", {Word::derivative});
-  require_content(content, value, "height_channel", {Word::height});
+  require_content(content, value, "channel", {Word::height});
   require_content(content, value, "height", {Word::height});
 }
 
@@ -61,7 +61,7 @@ const Fields<BumpCodes>& BumpCodes::fields() {
                                 .word("channels", &BumpCodes::channels)
                                 .word("green", &BumpCodes::green)
                                 .part(&BumpCodes::derivative)
-                                .word("height_channel", &BumpCodes::height_channel)
+                                .word("channel", &BumpCodes::height_channel)
                                 .number("height", &BumpCodes::height);
   return table;
 }

@@ -2,9 +2,10 @@
 
 #include "engine/compiler.hpp"
 
+#include <surfgrad/trigonometry.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace surfgrad::engine {
 namespace {
@@ -66,7 +67,8 @@ Decal decal_of(const stack::DecalLayer& layer, const stack::DecalInstance& insta
   decal.outward = axes.outward;
   decal.half_size = 0.5 * vec3<double>{axes.scale.x * instance.size.x, axes.scale.y * instance.size.y,
                                        axes.scale.z * instance.size.z};
-  decal.tan_half_angle = std::tan(instance.angle_deg * std::numbers::pi / 360);
+  const SinCos<double> half_angle = sin_cos_turns(instance.angle_deg / 720);
+  decal.tan_half_angle = half_angle.sin / half_angle.cos;
   decal.depth = scale * instance.depth;
   decal.radius = scale * instance.radius;
   decal.half_length = 0.5 * scale * instance.length;

@@ -161,11 +161,14 @@ template <LaneScalar T>
 /// Applies some of a layer's decals.
 ///
 /// which       their numbers, ascending: at least all that reach the point
-/// degenerate  (out) set within a sphere or capsule where there is no direction from its centre, or none
-///             in its map; the decal is flat there
+/// degenerate  (out) set where object space is wanted of an object whose transform has no inverse: no decal
+///             is there. Set within a sphere or capsule where there is no direction from its centre, or
+///             none in its map; the decal is flat there
 template <LaneScalar T>
 void apply(const Decals& layer, std::span<const std::uint32_t> which, const Point<T>& point, vec3<T>& sum,
            mask_t<T>& degenerate) {
+  const mask_t<T> lacking = lacks_space(point, layer.world); // no place to look from
+  degenerate = degenerate | lacking;
   if (which.empty()) return;
   const T one = T(value_t<T>(1));
   const SpacePoint<T> at = surface_in_space(point, layer.world);
@@ -174,7 +177,8 @@ void apply(const Decals& layer, std::span<const std::uint32_t> which, const Poin
   detail::DecalSum<T> waiting = detail::no_decals<T>();
   for (const std::uint32_t i : which) {
     const Decal& decal = layer.decals[i];
-    const detail::DecalBump<T> bump = detail::bump_of(layer, decal, at, origin);
+    detail::DecalBump<T> bump = detail::bump_of(layer, decal, at, origin);
+    bump.inside = bump.inside & !lacking;
     degenerate = degenerate | bump.degenerate;
     const T w = bump.falloff * mask * constant<T>(decal.opacity);
     if (decal.blend == stack::DecalBlend::replace) {

@@ -49,12 +49,9 @@ template <LaneScalar T>
   const Noise<T> noise =
       layer.custom ? evaluate(*layer.custom, at.position) : evaluate(layer.noise, at.position, width);
   const vec3<T> g = noise.gradient;
-  const mat3<double>& inverse = point.placement.inverse_linear;
-  const bool no_inverse = max(max(max_abs(inverse.x), max_abs(inverse.y)), max_abs(inverse.z)) == 0;
   const mask_t<T> absent = !((g.x == g.x) & (g.y == g.y) & (g.z == g.z));
-  const mask_t<T> untransformable =
-      mask_t<T>(T(value_t<T>(!layer.world && no_inverse ? 1 : 0)) == T(value_t<T>(1)));
-  const mask_t<T> none = absent | untransformable;
+  const mask_t<T> lacking = lacks_space(point, layer.world);
+  const mask_t<T> none = absent | lacking;
   degenerate = degenerate | none;
   const vec3<T> scaled = constant<T>(layer.scale) * select<T>(none, vec3<T>{zero, zero, zero}, g);
   const vec3<T> slope = detail::limited_slope(scaled);

@@ -19,15 +19,6 @@ struct Planar {
 /// The planes of a single projection: an image appears the right way round to whom looks against the axis.
 inline constexpr TriplanarConvention planar_convention{.handedness = Handedness::right};
 
-/// Whether a position in object space is wanted of an object whose transform has no inverse: footprints
-/// and gradients are zero there.
-template <Scalar T>
-[[nodiscard]] mask_t<T> lacks_space(const Point<T>& point, bool world) {
-  const mat3<double>& m = point.placement.inverse_linear;
-  const T singular = T(static_cast<value_t<T>>(max_abs(m.x) == 0 && max_abs(m.y) == 0 && max_abs(m.z) == 0));
-  return world ? mask_t<T>(singular < singular) : mask_t<T>(T(value_t<T>(0)) < singular);
-}
-
 /// What a point of space is on the planes of a projection: where they are read, and the footprint there.
 template <class T>
 struct PlaneFootprints {

@@ -55,14 +55,16 @@ template <LaneScalar T>
                                  const PlaneFootprints<T>& planes, vec3<T> weights, mask_t<T>& degenerate) {
   const T zero = T(value_t<T>(0));
   const vec3<T> none{zero, zero, zero};
+  const mask_t<T> lacking = lacks_space(point, layer.world);
   const auto v = of_weighted_planes(layer, weights, none, [&](PlaneAxis axis, const BumpMap& bumps) {
     const std::array<T, 3> texel = sample<3>(bumps.tiled, of_plane(planes.st, axis),
                                              of_plane(planes.dst_dx, axis), of_plane(planes.dst_dy, axis));
     return vec3<T>{texel[0], texel[1], texel[2]};
   });
   const auto weighted = [&](T weight, vec3<T> direction) {
-    degenerate = degenerate | ((zero < weight) & (max_abs(direction) == zero));
     if (!layer.world) direction = transform_normal(in_lanes<T>(point.placement.linear), direction);
+    direction = select<T>(lacking, none, direction);
+    degenerate = degenerate | ((zero < weight) & (max_abs(direction) == zero));
     return weight * from_perturbed_normal(point.frame.normal, direction);
   };
   return weighted(weights.x, v[0]) + weighted(weights.y, v[1]) + weighted(weights.z, v[2]);

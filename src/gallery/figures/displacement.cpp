@@ -28,8 +28,8 @@ Figure parallax_figure(const Shared& maps) {
     return [maps, change] {
       scene::Scene scene = pavement(48);
       stack::ParallaxLayer layer;
-      layer.common.key = "cobbles";
-      layer.map.file = maps->in(scene, "cobbles");
+      layer.common.key = "paving";
+      layer.map.file = maps->in(scene, "paving");
       layer.map.tile = laid;
       layer.height = depth;
       layer.level = 1;
@@ -41,8 +41,8 @@ Figure parallax_figure(const Shared& maps) {
   const auto bump = [maps] {
     scene::Scene scene = pavement(48);
     stack::HeightMapLayer layer;
-    layer.common.key = "cobbles";
-    layer.map.file = maps->in(scene, "cobbles");
+    layer.common.key = "paving";
+    layer.map.file = maps->in(scene, "paving");
     layer.map.tile = laid;
     layer.height = depth;
     layer.taps = stack::Taps::bicubic;
@@ -53,7 +53,7 @@ Figure parallax_figure(const Shared& maps) {
     scene::Scene scene = pavement(48);
     stack::Displace displace;
     displace.map.emplace();
-    displace.map->file = maps->in(scene, "cobbles");
+    displace.map->file = maps->in(scene, "paving");
     displace.map->tile = laid;
     displace.height = depth;
     displace.level = 1;

@@ -29,7 +29,7 @@ Figure tiled_heights(const Shared& maps) {
   const auto panel = [maps](stack::HeightMode mode, vec2<double> tile) {
     return [maps, mode, tile] {
       scene::Scene scene = slab();
-      stack::HeightMapLayer layer = heights(scene, *maps, "cobbles", tile);
+      stack::HeightMapLayer layer = heights(scene, *maps, "paving", tile);
       layer.mode = mode;
       // The slab is two wide: laid on once, a height of 0.05 is 0.025 of the map's width.
       layer.height = mode == stack::HeightMode::physical ? 0.05 : 0.025;
@@ -64,7 +64,7 @@ Figure scaled_heights(const Shared& maps) {
       scene.objects[0].world_from_object = affine(scaling({scale, scale, scale}));
       look_from(scene, 0, 12);
       light_from(scene, {-0.8, 0.7, 0.7});
-      stack::HeightMapLayer layer = heights(scene, *maps, "cobbles", {5, 5});
+      stack::HeightMapLayer layer = heights(scene, *maps, "paving", {5, 5});
       layer.map.uv = 1;
       layer.mode = mode;
       layer.units = units;

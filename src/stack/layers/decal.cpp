@@ -99,7 +99,10 @@ void check_placement(DecalPlacement& placement, const Value& value) {
     if (member == nullptr) continue;
     if (transform != nullptr)
       value.member(*member).fail("is given beside a \"transform\"", "give one of them");
-    placement.transform.reset(); // that of the layer
+    if (placement.transform) // that of the layer, which would lose its other parts
+      value.member(*member).fail(
+          "is given beside the layer's \"transform\"",
+          "give the instance a \"transform\" of its own, or place the layer without one");
   }
   if (max_abs(normalize_or_zero(placement.direction)) == 0)
     value.member(*value.find("direction"))

@@ -96,8 +96,12 @@ TEST_F(Composing, ALayerAndItsOppositeCancel) {
     const Program both = lab.compile({kind, other, twin});
     for (long k = 0; k < fragments; ++k) {
       const auto f = test::random_fragment(random);
-      const double size = max_abs(composed(lab.compile({kind}), f).surfgrad);
-      worst.add(composed(both, f).normal, composed(alone, f).normal, rounding * (1 + size), k);
+      // On an object at rest, and on one that is stretched, sheared and mirrored.
+      for (const mat3<double>& m : {test::identity, mat3<double>{{3, 0.4, 0}, {0, -0.5, 0}, {0.2, 0, 1}}}) {
+        const double size = max_abs(composed(lab.compile({kind}), f, BackFaces::same, m).surfgrad);
+        worst.add(composed(both, f, BackFaces::same, m).normal, composed(alone, f, BackFaces::same, m).normal,
+                  rounding * (1 + size) * (1 + size), k);
+      }
     }
   }
 }

@@ -106,9 +106,20 @@ TEST(Figures, DifferAtAGlanceWhereOneIsOlderOrWrongAndAgreeWhereTheyShould) {
     }
   std::printf("  least difference %.2f codes: %s\n", least, where.c_str());
 
-  const auto differ = [&](const char* a, const char* b) {
+  const auto differ = [&](const std::string& a, const std::string& b) {
     return mean_difference(pictures.at(a), pictures.at(b));
   };
+  // Choices are to be told apart, too, if on a part of the surface; but for maps that agree about what
+  // is flat.
+  for (const Figure& figure : figures) {
+    if (figure.id == "blending-flat") continue;
+    for (const Panel& a : figure.panels)
+      for (const Panel& b : figure.panels) {
+        if (a.way != Way::choice || b.way != Way::choice || !(a.id < b.id)) continue;
+        const std::string pair[] = {picture_name(figure, a), picture_name(figure, b)};
+        EXPECT_GT(differ(pair[0], pair[1]), seen_at_a_glance / 2) << pair[0] << " " << pair[1];
+      }
+  }
   // Two frames for the same map; two spaces of the same shape (one baked through a tangent space and
   // 16-bit codes, then filtered as slopes instead of directions).
   EXPECT_LT(differ("bases-vertex.png", "bases-derived.png"), 0.5);
@@ -157,6 +168,42 @@ TEST(Figures, HeightsInUnitsOfTheObjectGrowWithIt) {
   // The frame grows with the ball by a power of two: but for rounding it is the same computation.
   EXPECT_LT(mean_difference(picture("object"), small), 0.01);
   EXPECT_GT(mean_difference(picture("scene"), small), seen_at_a_glance);
+}
+
+/// Whether a pixel is background, or one of its eight neighbours is.
+bool at_the_outline(const image::Image& coverage, int x, int y) {
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, coverage.height - 1); ++j)
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, coverage.width - 1); ++i)
+      if (coverage.at(i, j, 0) == 0 && coverage.at(i, j, 1) == 0 && coverage.at(i, j, 2) == 0) return true;
+  return false;
+}
+
+TEST(Figures, DecalsAreSeenWhole) {
+  const std::vector<Figure> figures = built_in_figures();
+  const auto found =
+      std::find_if(figures.begin(), figures.end(), [](const Figure& f) { return f.id == "decals"; });
+  ASSERT_NE(found, figures.end());
+  constexpr int size = 96;
+  const render::Options normals{.width = size, .height = size, .aov = render::Aov::normal};
+  for (const Panel& panel : found->panels) {
+    scene::Scene scene = panel.scene();
+    const image::Image with = render::render(scene, normals).image;
+    scene.materials[0].layers.clear();
+    const image::Image without = render::render(scene, normals).image;
+    int changed = 0;
+    int at_outline = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        double difference = 0;
+        for (int c = 0; c < 3; ++c)
+          difference = std::max(difference, std::abs(double(with.at(x, y, c)) - double(without.at(x, y, c))));
+        if (difference < 0.02) continue; // a degree: nothing that shading shows
+        ++changed;
+        if (at_the_outline(without, x, y)) ++at_outline;
+      }
+    EXPECT_GT(changed, size * size / 20) << panel.id;
+    EXPECT_EQ(at_outline, 0) << panel.id;
+  }
 }
 
 TEST(Figures, OnlyThoseThatAreToGoWrongMakeTheStageWarn) {

@@ -25,8 +25,9 @@ std::array<std::uint32_t, 3> corners(const mesh::TriangleMesh& mesh, std::size_t
 
 TEST(GalleryMeshes, NormalsAreUnitAndTrianglesFaceAlongThem) {
   for (const mesh::TriangleMesh& mesh :
-       {rock_mesh(), closed_surface(8, ball_point), half_mirrored_torus(), scroll(), sheet(3), sheet(6, 0.35),
-        flat_sheet(4), morphed_sheet(32, MorphedTangents::recomputed)}) {
+       {rock_mesh(), closed_surface(8, ball_point), closed_surface(12, rounded_cube_point),
+        closed_surface(12, pill_point), half_mirrored_torus(), barrel(), ground(), scroll(), sheet(3),
+        sheet(6, 0.35), flat_sheet(4), morphed_sheet(32, MorphedTangents::recomputed)}) {
     for (const vec3<float>& n : mesh.normals) ASSERT_NEAR(length(widen(n)), 1, 1e-6);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       const auto [a, b, c] = corners(mesh, i);
@@ -84,6 +85,52 @@ TEST(GalleryMeshes, RockNormalsAreThoseOfItsSurface) {
   std::printf("  worst difference %.3g, %d samples on a ridge\n", worst, kinks);
   // A ridge line of one of the five finer octaves within h of a sample: there is about one a cell.
   EXPECT_LE(kinks, 5);
+}
+
+TEST(GalleryMeshes, SmoothBodiesHaveTheNormalsOfTheirSurface) {
+  for (const auto body : {rounded_cube_point, pill_point}) {
+    double worst = 0;
+    for (int i = 0; i < 500; ++i) {
+      const double azimuth = 0.37 * i;
+      const double y = -0.95 + 1.9 * i / 499;
+      const double r = std::sqrt(1 - y * y);
+      const vec3<double> d{r * std::sin(azimuth), y, r * std::cos(azimuth)};
+      const vec3<double> a = normalize_or_zero(cross(vec3<double>{0, 1, 0.1}, d));
+      const vec3<double> b = cross(d, a);
+      const double h = 1e-5;
+      const auto point = [&](vec3<double> step) { return body(normalize_or_zero(d + step)).position; };
+      const vec3<double> expected =
+          normalize_or_zero(cross(point(h * a) - point(-(h * a)), point(h * b) - point(-(h * b))));
+      worst = std::max(worst, length(body(d).normal - expected));
+    }
+    // Rounding, 1e-16 / h; at the joints of the pill, whose curvature jumps from 0 to 1 / 0.55, up to
+    // h / 0.55.
+    EXPECT_LT(worst, 3e-5);
+  }
+}
+
+TEST(GalleryMeshes, LedgesRunAroundTheRockWhereItsMeshIsSteep) {
+  int level_on_the_mesh = 0;
+  int level = 0;
+  int overhanging = 0;
+  constexpr int samples = 2000;
+  for (int i = 0; i < samples; ++i) {
+    const double azimuth = 0.37 * i;
+    const double y = -0.5 + 1.0 * i / (samples - 1);
+    const double r = std::sqrt(1 - y * y);
+    const vec3<double> d{r * std::sin(azimuth), y, r * std::cos(azimuth)};
+    const vec3<double> n = ledged_rock_normal(d);
+    ASSERT_NEAR(length(n), 1, 1e-12);
+    ASSERT_GT(dot(n, d), 0); // outwards
+    if (n.y > 0.8) ++level;
+    if (rock_point(d, rock_mesh_octaves).normal.y > 0.8) ++level_on_the_mesh;
+    if (n.y < 0) ++overhanging;
+  }
+  std::printf("  level %d of %d, on the mesh %d; overhanging %d\n", level, samples, level_on_the_mesh,
+              overhanging);
+  EXPECT_LT(level_on_the_mesh, samples / 20);
+  EXPECT_GT(level, samples / 10);
+  EXPECT_GT(overhanging, samples / 4);
 }
 
 TEST(GalleryMeshes, UnwrapLeadsBackToTheSurface) {

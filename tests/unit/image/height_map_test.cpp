@@ -179,7 +179,7 @@ TEST(HeightSlopes, SampledOnAReflectedCopyAreTurnedOver) {
         };
         const auto d = sample<2, double>(slopes, st, 0.0, both, Filter::nearest, true);
         // Nearest texels of the same heights: only the slope's own rounding, half an ulp of at most 4.
-        worst.add(mirrored_slope(st, {d[0], d[1]}, both),
+        worst.add(wrapped_slope(st, {d[0], d[1]}, both),
                   {4 * (height_at(0.125, 0) - height_at(-0.125, 0)),
                    4 * (height_at(0, 0.125) - height_at(0, -0.125))},
                   2 * float_eps, k);

@@ -38,7 +38,7 @@ TEST(DecalDocument, the_smallest_is_one_upright_box) {
 
 TEST(DecalDocument, every_key_arrives) {
   const Stack stack = parse_stack(R"({ "surfgrad": 1, "layers": [
-    { "type": "decal", "shape": "wedge", "map": "w.png", "content": "height", "height_channel": "g",
+    { "type": "decal", "shape": "wedge", "map": "w.png", "content": "height", "channel": "g",
       "height": 0.5, "tile": 2, "rotate": 10, "offset": [3, 4], "wrap": "repeat", "filter": "nearest",
       "space": "object", "falloff": 0.25, "gradient": "scale_free", "position": [1, 2, 3],
       "direction": [4, 5, 6], "roll": 7, "angle": 90, "depth": 8, "length": 0, "scale": -2,

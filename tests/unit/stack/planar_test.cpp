@@ -47,7 +47,7 @@ TEST(StackPlanar, takes_every_key) {
             "tile 2 -3 rotate 5 offset 6 7 wrap 2 filter 0\n"
             "channels 0 green 1 range 4 neutral 1 height_channel 0 height 1\n");
   EXPECT_EQ(text_of_layer(R"({"type": "planar", "map": "a.png", "axis": "x",
-      "content": "height", "height_channel": "a", "height": -0.25})"),
+      "content": "height", "channel": "a", "height": -0.25})"),
             "planar a.png axis 0 space 0 content 2\n"
             "scale 1 opacity 1 blend 0\n"
             "tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2\n"
@@ -69,7 +69,7 @@ TEST(StackPlanar, names_what_is_wrong) {
   EXPECT_EQ(fault_of(start + R"("axis": "x", "uv": 1})"),
             "layers[0]: unknown key \"uv\"; expected one of: type, map, axis, space, content, tile, rotate, "
             "offset, "
-            "wrap, filter, tiling, hex_turn, channels, green, range, neutral, height_channel, height, scale, "
+            "wrap, filter, tiling, hex_turn, channels, green, range, neutral, channel, height, scale, "
             "mask, opacity, blend");
 }
 

@@ -152,7 +152,7 @@ TEST(StackSchema, knows_the_objects_and_layer_kinds_of_the_parser) {
 const std::map<std::string, std::set<std::string>> keys_of_content = {
     {"normal", {"green", "tiling"}},
     {"derivative", {"green", "range", "neutral", "tiling"}},
-    {"height", {"height_channel", "height", "tiling"}},
+    {"height", {"channel", "height", "tiling"}},
     {"object_normal", {"green"}}};
 
 /// The contents of a layer kind; one of none for kinds without that key.
