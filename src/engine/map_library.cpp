@@ -58,6 +58,16 @@ void MapLibrary::require_channels(const image::Image& image, int least, const st
        .remedy = what + std::string(least == 3 ? " of x, y and z needs three" : " needs two or three")});
 }
 
+void MapLibrary::require_channel(const image::Image& image, stack::MaskChannel channel,
+                                 const stack::FileName& file) const {
+  // Red, green and blue of a grey file are its grey; opacity that it lacks would be 1 everywhere.
+  if (image.source_of(static_cast<int>(channel)) >= 0) return;
+  throw InputError({.file = file.path,
+                    .place = named_by(file),
+                    .problem = "has no alpha channel",
+                    .remedy = "expected \"channel\": r, g or b, or a file with opacity"});
+}
+
 std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::FileName& file, stack::Channels channels,
                                                      stack::Green green) {
   return made_once("slopes " + number_of(channels) + word_of(green), file, [&](const image::Image& image) {
@@ -85,6 +95,7 @@ MapLibrary::derivatives(const stack::FileName& file, const stack::DerivativeCode
 std::shared_ptr<const image::Map> MapLibrary::heights(const stack::FileName& file,
                                                       stack::MaskChannel channel) {
   return made_once("heights " + number_of(channel), file, [&](const image::Image& image) {
+    require_channel(image, channel, file);
     return image::make_height_map(image, static_cast<int>(channel));
   });
 }
@@ -93,6 +104,7 @@ std::shared_ptr<const image::Map> MapLibrary::height_slopes(const stack::FileNam
                                                             stack::MaskChannel channel, image::Wraps wraps) {
   return made_once("height slopes " + number_of(channel) + number_of(wraps.s) + number_of(wraps.t), file,
                    [&](const image::Image& image) {
+                     require_channel(image, channel, file);
                      return image::make_height_slopes(image, static_cast<int>(channel), wraps);
                    });
 }
@@ -124,6 +136,7 @@ std::shared_ptr<const image::CubeMap> MapLibrary::cube(const std::vector<stack::
 std::shared_ptr<const image::Map> MapLibrary::weights(const stack::FileName& file,
                                                       stack::MaskChannel channel) {
   return made_once("weights " + number_of(channel), file, [&](const image::Image& image) {
+    require_channel(image, channel, file);
     return image::make_channel_map(image, static_cast<int>(channel));
   });
 }
@@ -131,9 +144,17 @@ std::shared_ptr<const image::Map> MapLibrary::weights(const stack::FileName& fil
 std::shared_ptr<const image::TwoSidedField> MapLibrary::relief(const stack::FileName& file,
                                                                stack::MaskChannel channel) {
   auto& relief = reliefs_[number_of(channel) + " " + file.path.string()];
-  if (!relief)
-    relief = std::make_shared<const image::TwoSidedField>(
-        image::make_two_sided_field(image::make_channel_map(find_(file.path), static_cast<int>(channel))));
+  if (relief) return relief;
+  const image::Image& image = find_(file.path);
+  require_channel(image, channel, file);
+  if (std::max(image.width, image.height) > image::height_field_most_texels)
+    throw InputError({.file = file.path,
+                      .place = named_by(file),
+                      .problem = "is " + std::to_string(image.width) + "x" + std::to_string(image.height),
+                      .remedy = "parallax takes at most " + std::to_string(image::height_field_most_texels) +
+                                " texels a side"});
+  relief = std::make_shared<const image::TwoSidedField>(
+      image::make_two_sided_field(image::make_channel_map(image, static_cast<int>(channel))));
   return relief;
 }
 

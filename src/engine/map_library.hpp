@@ -63,6 +63,8 @@ class MapLibrary {
                                               const Make& make);
   /// Who named a file, for a message about it.
   [[nodiscard]] std::string named_by(const stack::FileName& file) const;
+  void require_channel(const image::Image& image, stack::MaskChannel channel,
+                       const stack::FileName& file) const;
   void require_channels(const image::Image& image, int least, const stack::FileName& file,
                         const char* what) const;
 

@@ -38,14 +38,14 @@ const Fields<DisplacementMap>& DisplacementMap::fields() {
 
 const Fields<Displace>& Displace::fields() {
   static const auto table = Fields<Displace>()
+                                .finally(check_source) // before the function looks at its keys
                                 .part(&Displace::noise)
                                 .object("map", &Displace::map)
                                 .number("height", &Displace::height)
                                 .required()
                                 .number("level", &Displace::level)
                                 .integer("subdivide", &Displace::subdivide, {.least = 0, .most = most_levels})
-                                .word("edges", &Displace::edges)
-                                .finally(check_source);
+                                .word("edges", &Displace::edges);
   return table;
 }
 

@@ -83,6 +83,15 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
   EXPECT_EQ(refusal(2, derivatives), "");
   EXPECT_NE(refusal(2, directions), "");
   EXPECT_EQ(refusal(4, directions), "");
+  for (const auto& ask :
+       {+[](MapLibrary& maps) { (void)maps.weights(file_of("n.png"), stack::MaskChannel::a); },
+        +[](MapLibrary& maps) { (void)maps.heights(file_of("n.png"), stack::MaskChannel::a); },
+        +[](MapLibrary& maps) { (void)maps.height_slopes(file_of("n.png"), stack::MaskChannel::a, {}); },
+        +[](MapLibrary& maps) { (void)maps.relief(file_of("n.png"), stack::MaskChannel::a); }}) {
+    EXPECT_EQ(refusal(3, ask), "n.png: (named by s.json:7: layers[1].map): has no alpha channel; expected "
+                               "\"channel\": r, g or b, or a file with opacity");
+    EXPECT_EQ(refusal(4, ask), "");
+  }
 }
 
 TEST(MapLibrary, MakesCubeMapsOfOneFileOrSixAndSaysWhichFaceDoesNotFit) {

@@ -110,9 +110,9 @@ TEST(Figures, DifferAtAGlanceWhereOneIsOlderOrWrongAndAgreeWhereTheyShould) {
     return mean_difference(pictures.at(a), pictures.at(b));
   };
   // Choices are to be told apart, too, if on a part of the surface; but for maps that agree about what
-  // is flat.
+  // is flat, and heights that grow with their object.
   for (const Figure& figure : figures) {
-    if (figure.id == "blending-flat") continue;
+    if (figure.id == "blending-flat" || figure.id == "scaled-heights") continue;
     for (const Panel& a : figure.panels)
       for (const Panel& b : figure.panels) {
         if (a.way != Way::choice || b.way != Way::choice || !(a.id < b.id)) continue;

@@ -46,7 +46,7 @@ TEST(DecalDocument, every_key_arrives) {
     { "type": "decal", "shape": "capsule", "map": ["a", "b", "c", "d", "e", "f"], "radius": 2,
       "transform": [2,0,0,0, 0,2,0,0, 0,0,2,0, 5,6,7,1], "length": 3,
       "instances": [ { "blend": "replace", "scale": 3, "opacity": 0 },
-                     { "position": [1, 1, 1], "radius": 4 } ] } ] })",
+                     { "transform": [0,1,0,0, -1,0,0,0, 0,0,1,0, 1,1,1,1], "radius": 4 } ] } ] })",
                                   "stack.json");
   EXPECT_EQ(test::text_of(stack), R"(layers true
 decal shape 4 space 0 falloff 0.25 gradient 1
@@ -73,7 +73,8 @@ at 0 0 0 direction 0 -1 0 roll 0
 transform 2 0 0 0 0 2 0 0 0 0 2 0 5 6 7 1
 size 1 1 1 angle 60 depth 1 radius 2 length 3
 scale 3 opacity 0 blend 2
-at 1 1 1 direction 0 -1 0 roll 0
+at 0 0 0 direction 0 -1 0 roll 0
+transform 0 1 0 0 -1 0 0 0 0 0 1 0 1 1 1 1
 size 1 1 1 angle 60 depth 1 radius 4 length 3
 scale -99 opacity -99 blend -99
 yaw 30 pitch 15 zoom 1 fov 35
@@ -163,6 +164,11 @@ const Mistake mistakes[] = {
      ".transform: scales a cone unevenly; expected columns of one length, or \"shape\": \"box\""},
     {"transform_and_position", R"("transform": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "position": [0, 0, 0])",
      ".position: is given beside a \"transform\"; give one of them"},
+    {"roll_beside_the_layers_transform",
+     R"("transform": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "instances": [ {"roll": 3} ])",
+     ".instances[0].roll: is given beside the layer's \"transform\"; give the instance a \"transform\" of "
+     "its own, "
+     "or place the layer without one"},
     {"transform_of_twelve", R"("transform": [1,0,0, 0,1,0, 0,0,1, 0,0,0])",
      ".transform: is an array of 12; expected an array of 16 numbers"},
     {"falloff", R"("falloff": 1.5)", ".falloff: is 1.5; expected a number from 0 to 1"},

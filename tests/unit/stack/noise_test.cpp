@@ -71,6 +71,11 @@ TEST(StackNoise, BadValuesSayWhatWouldBeRight) {
       {R"("power": 0)", "layers[0].power: is 0; expected a number greater than 0"},
       {R"("frequency": -1)", "layers[0].frequency: is -1; expected a number greater than 0"},
       {R"("offset": [0, 1])", "layers[0].offset: is an array of 2; expected an array of 3 numbers"},
+      {R"("octaves": 3)", "layers[0].octaves: does not apply to this function; leave it out, or give "
+                          "\"function\": \"fractal_sum\", \"turbulence\" or \"ridged\""},
+      {R"("function": "ridged", "worley": "f1")", "layers[0].worley: does not apply to this function; leave "
+                                                  "it out, or give \"function\": \"worley\", or "
+                                                  "a sum and \"basis\": \"worley\""},
       {R"("map": "n.png")",
        "layers[0]: unknown key \"map\"; expected one of: type, function, basis, worley, octaves, lacunarity, "
        "gain, power, frequency, offset, space, method, scale, mask, opacity, blend"},

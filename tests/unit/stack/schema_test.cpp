@@ -221,6 +221,10 @@ TEST(StackSchema, defaults_are_those_of_the_parser) {
     } else if (object.is_layer) {
       if (object.name == "parallax") // opens a pass
         for (json* document : {&plain, &full}) (*document)["layers"].push_back({{"type", "resolve"}});
+      if (object.name == "noise") { // the function for which every key has a meaning
+        layer.update({{"function", "turbulence"}, {"basis", "worley"}});
+        defaults.update({{"function", "turbulence"}, {"basis", "worley"}});
+      }
       for (const std::string& content : contents_of(object)) {
         full_layer = layer;
         full_layer.update(of_content(defaults, content));
