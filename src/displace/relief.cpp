@@ -7,8 +7,10 @@
 #include <surfgrad/gradient.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 
 namespace surfgrad::displace {
 namespace {
@@ -92,12 +94,11 @@ Relief relief_of(const mesh::TriangleMesh& mesh, const stack::Displace& displace
   });
 
   // Vertices at one place with one normal have one sum: there a texture seam is no seam of the surface.
-  std::vector<std::size_t> first_of_place(places.count, normals.size());
+  std::map<std::array<double, 4>, std::size_t> first_of; // by place and normal
   std::vector<std::size_t> sum_of(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    std::size_t& first = first_of_place[places.of_vertex[i]];
-    if (first == normals.size()) first = i;
-    sum_of[i] = max_abs(normals[i] - normals[first]) == 0 ? first : i;
+    const double3& n = normals[i];
+    sum_of[i] = first_of.try_emplace({double(places.of_vertex[i]), n.x, n.y, n.z}, i).first->second;
   }
   std::vector<double3> sums(normals.size(), double3{0, 0, 0});
   std::vector<double> weights(normals.size(), 0);

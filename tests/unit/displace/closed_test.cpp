@@ -111,6 +111,33 @@ TEST(DisplaceClosed, TextureSeamsOfAMapMeetHalfway) {
     EXPECT_EQ(max_abs(displaced.mesh.normals[25 * j + 24] - displaced.mesh.normals[25 * j]), 0) << j;
 }
 
+TEST(DisplaceClosed, ATextureSeamAtAHardEdgeIsNotSeenInWhateverOrderTheFacesCome) {
+  Bumps bumps;
+  bumps.displace.height = 0.1;
+  const engine::TiledMap map = bumps.tiled();
+  for (const bool wall_first : {true, false}) {
+    mesh::TriangleMesh mesh;
+    const auto wall = [&] { test::append_triangle(mesh, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}); };
+    if (wall_first) wall();
+    const std::size_t floor = mesh.positions.size();
+    test::append_triangle(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    test::append_triangle(mesh, {0, 0, 0}, {0, 1, 0}, {-1, 0, 0});
+    if (!wall_first) wall();
+    mesh.uv_sets.assign(1, std::vector<vec2<float>>(mesh.positions.size()));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const vec3<float> p = mesh.positions[i];
+      const bool other_side = i >= floor + 3 && i < floor + 6;
+      mesh.uv_sets[0][i] = other_side ? vec2<float>{0.3f + 0.7f * p.y, 0.5f * p.x + 0.1f * p.y}
+                                      : vec2<float>{p.x + p.z, p.y + 0.2f * p.z};
+    }
+    const DisplacedMesh displaced = displace::displace(mesh, bumps.displace, &map);
+    const auto normal = [&](std::size_t i) { return widen(displaced.mesh.normals[floor + i]); };
+    EXPECT_EQ(max_abs(normal(0) - normal(3)), 0) << wall_first;
+    EXPECT_EQ(max_abs(normal(2) - normal(4)), 0) << wall_first;
+    EXPECT_GT(max_abs(normal(0) - double3{0, 0, 1}), 0.01) << "no slope to speak of";
+  }
+}
+
 TEST(DisplaceClosed, SidesOfALeafPartAndAreCounted) {
   mesh::TriangleMesh leaf;
   test::append_triangle(leaf, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
