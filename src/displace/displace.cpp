@@ -2,6 +2,7 @@
 
 #include "displace/relief.hpp"
 #include "mesh/places.hpp"
+#include "mesh/precision.hpp"
 #include "mesh/subdivide.hpp"
 
 #include <algorithm>
@@ -12,13 +13,9 @@
 namespace surfgrad::displace {
 namespace {
 
+using mesh::narrow, mesh::widen;
+
 using double3 = vec3<double>;
-
-double3 widen(vec3<float> v) { return {v.x, v.y, v.z}; }
-
-vec3<float> narrow(double3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// What the vertices at one place have in common.
 struct Place {

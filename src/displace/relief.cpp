@@ -3,6 +3,7 @@
 #include "engine/noise_function.hpp"
 #include "engine/rows.hpp"
 #include "image/bicubic.hpp"
+#include "mesh/precision.hpp"
 
 #include <surfgrad/gradient.hpp>
 
@@ -15,11 +16,10 @@
 namespace surfgrad::displace {
 namespace {
 
+using mesh::widen;
+
 using double2 = vec2<double>;
 using double3 = vec3<double>;
-
-double2 widen(vec2<float> v) { return {v.x, v.y}; }
-double3 widen(vec3<float> v) { return {v.x, v.y, v.z}; }
 
 /// Runs work(i) for every vertex, in parallel.
 template <class Work>

@@ -1,5 +1,7 @@
 #include "gallery/meshes.hpp"
 
+#include "mesh/precision.hpp"
+
 #include <surfgrad/fractal.hpp>
 
 #include <algorithm>
@@ -10,10 +12,7 @@
 namespace surfgrad::gallery {
 namespace {
 
-vec3<float> narrow(vec3<double> v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-vec2<float> narrow(vec2<double> v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
+using mesh::narrow;
 
 /// One side of the cube: the direction of (a, b) in [-1, 1]^2 is centre + a * right + b * up.
 struct Side {

@@ -1,5 +1,7 @@
 #include "mesh/morph.hpp"
 
+#include "mesh/precision.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -27,10 +29,6 @@ std::vector<vec3<double>> moves_of(std::span<const MorphTarget> targets, std::sp
 }
 
 vec3<double> moved(vec3<float> v, vec3<double> by) { return vec3<double>{v.x, v.y, v.z} + by; }
-
-vec3<float> narrow(vec3<double> v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 } // namespace
 

@@ -1,5 +1,7 @@
 #include "mesh/normals.hpp"
 
+#include "mesh/precision.hpp"
+
 #include <cmath>
 #include <cstddef>
 
@@ -10,12 +12,6 @@ using double3 = vec3<double>;
 using Triangle = std::array<std::uint32_t, 3>;
 
 // In double, differences, products and lengths of float coordinates neither overflow nor underflow.
-double3 widen(vec3<float> v) { return {v.x, v.y, v.z}; }
-
-vec3<float> narrow(double3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 /// Unit normal, or zero for a triangle of zero area or with a non-finite position.
 double3 face_normal(std::span<const vec3<float>> positions, const Triangle& triangle) {
   const double3 p = widen(positions[triangle[0]]);

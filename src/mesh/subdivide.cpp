@@ -2,6 +2,7 @@
 
 #include "mesh/bounds.hpp"
 #include "mesh/places.hpp"
+#include "mesh/precision.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -19,12 +20,6 @@ using double3 = vec3<double>;
 using Triangle = std::array<std::uint32_t, 3>;
 
 // In double, sums and products of float coordinates neither overflow nor underflow.
-double3 widen(vec3<float> v) { return {v.x, v.y, v.z}; }
-
-vec3<float> narrow(double3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 vec2<float> halfway(vec2<float> a, vec2<float> b) {
   return {static_cast<float>(0.5 * (static_cast<double>(a.x) + static_cast<double>(b.x))),
           static_cast<float>(0.5 * (static_cast<double>(a.y) + static_cast<double>(b.y)))};

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +31,12 @@ class TemporaryFolder {
 
   std::filesystem::path write(std::string_view name, std::string_view content) const {
     const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
     return file;
+  }
+  std::filesystem::path write(std::string_view name, std::span<const std::byte> content) const {
+    return write(name, std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
   }
 
   /// Names of what lies in it, sorted.
