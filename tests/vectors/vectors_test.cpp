@@ -27,7 +27,8 @@ std::vector<float> read_floats(const char* name) {
   std::ifstream file(std::string(SURFGRAD_SHARED_DIR "/vectors/") + name, std::ios::binary);
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   std::vector<float> values(bytes.size() / sizeof(float));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+  // An absent file is no floats, and memcpy takes no null pointer even for none.
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
   return values;
 }
 
