@@ -102,11 +102,7 @@ void add_gallery_command(CLI::App& program) {
   verb.add_option("--size", command->size, "side of each picture in pixels, or WIDTHxHEIGHT")
       ->capture_default_str()
       ->type_name("N");
-  verb.add_option("--threads", command->threads, "threads to use; 0 means all")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  verb.add_flag("-q,--quiet", command->quiet, "no progress bar, warnings or summary (but --json)");
-  verb.add_flag("--json", command->json, "summary as one line of JSON, even with --quiet");
+  add_job_options(verb, command->threads, command->quiet, command->json);
   verb.callback([command] { run(*command); });
 }
 

@@ -20,6 +20,14 @@ bool parse_side(std::string_view text, int& side) {
 
 } // namespace
 
+void add_job_options(CLI::App& verb, int& threads, bool& quiet, bool& json) {
+  verb.add_option("--threads", threads, "threads to use; 0 means all")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  verb.add_flag("-q,--quiet", quiet, "no progress bar, warnings or summary (but --json)");
+  verb.add_flag("--json", json, "summary as one line of JSON, even with --quiet");
+}
+
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits) {
   verb.add_option("SCENE", options.scene,
                   "stack document (.json) or model (.gltf, .glb, .obj); without it the built-in demo")
@@ -35,11 +43,7 @@ void add_common_options(CLI::App& verb, CommonOptions& options, const std::strin
                   "8, 16, half or float (default: " + integer_bits + " for PNG and TIFF, float for EXR)")
       ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
       ->type_name("BITS");
-  verb.add_option("--threads", options.threads, "threads to use; 0 means all")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  verb.add_flag("-q,--quiet", options.quiet, "no progress bar, warnings or summary (but --json)");
-  verb.add_flag("--json", options.json, "summary as one line of JSON, even with --quiet");
+  add_job_options(verb, options.threads, options.quiet, options.json);
 }
 
 Size parse_size(const std::string& text) {

@@ -10,7 +10,7 @@
 
 namespace surfgrad::cli {
 
-/// Options that every verb has, spelled the same everywhere.
+/// Options of the verbs that read a scene and write an image, spelled the same everywhere.
 struct CommonOptions {
   std::string scene; ///< empty: the built-in demo
   std::string output;
@@ -20,6 +20,9 @@ struct CommonOptions {
   bool quiet = false;
   bool json = false;
 };
+
+/// What every verb takes: threads (0: as many as the machine has), and how much it says.
+void add_job_options(CLI::App& verb, int& threads, bool& quiet, bool& json);
 
 /// integer_bits is what the verb writes into PNG and TIFF unless told otherwise.
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits);

@@ -11,8 +11,8 @@ namespace {
 using double3 = vec3<double>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-// In double, differences, products and lengths of float coordinates neither overflow nor underflow.
-/// Unit normal, or zero for a triangle of zero area or with a non-finite position.
+/// Unit normal, or zero for a triangle of zero area or with a non-finite position. In double, differences,
+/// products and lengths of float coordinates neither overflow nor underflow.
 double3 face_normal(std::span<const vec3<float>> positions, const Triangle& triangle) {
   const double3 p = widen(positions[triangle[0]]);
   const double3 normal = cross(widen(positions[triangle[1]]) - p, widen(positions[triangle[2]]) - p);
