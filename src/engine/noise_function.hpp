@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/lane.hpp"
 #include "stack/noise_function.hpp"
 #include "stack/volume_function.hpp"
 
@@ -97,30 +98,22 @@ template <LaneScalar T>
   return {noise.value, saturated(frequency * noise.gradient)};
 }
 
-/// Value and gradient of a program's own function. It knows one point at a time and no pixel size: a
-/// pack, whose lanes must be there as an array `lane`, calls it lane by lane.
+/// Value and gradient of a program's own function. It knows one point at a time and no pixel size: lanes
+/// call it one by one.
 template <LaneScalar T>
 [[nodiscard]] Noise<T> evaluate(const stack::VolumeFunction& function, vec3<T> position) {
   using V = value_t<T>;
-  const auto call = [&function](V x, V y, V z) {
-    const Noise<double> n = function({double(x), double(y), double(z)});
-    return Noise<V>{
-        static_cast<V>(n.value),
-        {static_cast<V>(n.gradient.x), static_cast<V>(n.gradient.y), static_cast<V>(n.gradient.z)}};
-  };
-  if constexpr (std::floating_point<T>) {
-    return call(position.x, position.y, position.z);
-  } else {
-    Noise<T> result{};
-    for (std::size_t i = 0; i < result.value.lane.size(); ++i) {
-      const Noise<V> one = call(position.x.lane[i], position.y.lane[i], position.z.lane[i]);
-      result.value.lane[i] = one.value;
-      result.gradient.x.lane[i] = one.gradient.x;
-      result.gradient.y.lane[i] = one.gradient.y;
-      result.gradient.z.lane[i] = one.gradient.z;
-    }
-    return result;
+  const T zero = T(V(0));
+  Noise<T> result{zero, {zero, zero, zero}};
+  for (int i = 0; i < lane_count<T>; ++i) {
+    const Noise<double> n =
+        function({double(lane(position.x, i)), double(lane(position.y, i)), double(lane(position.z, i))});
+    result.value = with_lane(result.value, i, static_cast<V>(n.value));
+    result.gradient = {with_lane(result.gradient.x, i, static_cast<V>(n.gradient.x)),
+                       with_lane(result.gradient.y, i, static_cast<V>(n.gradient.y)),
+                       with_lane(result.gradient.z, i, static_cast<V>(n.gradient.z))};
   }
+  return result;
 }
 
 } // namespace surfgrad::engine

@@ -112,6 +112,18 @@ select(const EmulatedMask& m, const EmulatedLanes<Value, Tag>& a, const Emulated
   return detail::each_lane<EmulatedFloat>([](float x, float y) { return surfgrad::max(x, y); }, a, b);
 }
 [[nodiscard]] constexpr float lane(const EmulatedFloat& a, int i) { return a.lane[i]; }
+[[nodiscard]] constexpr std::int32_t lane(const EmulatedIndex& a, int i) { return a.lane[i]; }
+[[nodiscard]] constexpr EmulatedFloat with_lane(EmulatedFloat a, int i, float x) {
+  a.lane[i] = x;
+  return a;
+}
+/// Whether all lanes hold the same index; `value` is then that.
+[[nodiscard]] constexpr bool same_in_all(const EmulatedIndex& a, std::int32_t& value) {
+  value = a.lane[0];
+  for (const std::int32_t i : a.lane)
+    if (i != value) return false;
+  return true;
+}
 /// Truncates; saturates; NaN gives 0.
 [[nodiscard]] constexpr EmulatedIndex to_index(const EmulatedFloat& a) {
   return detail::each_lane<EmulatedIndex>([](float x) { return surfgrad::to_index(x); }, a);
@@ -143,5 +155,26 @@ static_assert(LaneScalar<simd::EmulatedFloat>);
 
 template <>
 inline constexpr int lane_count<simd::EmulatedFloat> = simd::emulated_width;
+
+template <>
+struct LaneArrays<simd::EmulatedFloat> {
+  static constexpr simd::EmulatedFloat load(const float* from) {
+    return lanes_of_array<simd::EmulatedFloat>(from);
+  }
+  static constexpr simd::EmulatedIndex load_index(const std::int32_t* from) {
+    return lanes_of_array<simd::EmulatedIndex>(from);
+  }
+  static constexpr void store(const simd::EmulatedFloat& a, float* to) {
+    for (const float x : a.lane) *to++ = x;
+  }
+
+ private:
+  template <class Lanes, class Value>
+  static constexpr Lanes lanes_of_array(const Value* from) {
+    Lanes r;
+    for (Value& x : r.lane) x = *from++;
+    return r;
+  }
+};
 
 } // namespace surfgrad
