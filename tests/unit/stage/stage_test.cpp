@@ -41,7 +41,7 @@ TEST(Stage, RunsEachTrianglesOwnLayers) {
   const scene::Scene scene = two_materials();
   const Stage stage(scene, {0, 0, 0}, {}, {});
   for (const std::uint32_t t : {0u, 1u}) {
-    const auto planes = raster::uv_planes(stage.surfaces()[0], stage.slot_of(0), t, 9, 9);
+    const auto planes = raster::Projection::texture(stage.slot_of(0), 9, 9).planes(stage.surfaces()[0], t);
     auto f = raster::make_fragment(stage.surfaces()[0], t, planes, 4.5, 4.5);
     const auto c = stage.compose({0, t}, f);
     EXPECT_EQ(max_abs(c.normal - vec3<double>{0, 0, 1}) > 0.1, t == 1);
