@@ -5,6 +5,7 @@
 #include "engine/rows.hpp"
 #include "raster/visibility.hpp"
 #include "render/camera.hpp"
+#include "render/display.hpp"
 #include "render/shading.hpp"
 #include "stage/stage.hpp"
 
@@ -57,7 +58,7 @@ struct Sampler {
     case Aov::beauty:
       break;
     }
-    return (*shading)(c.normal, fragment.to_viewer, c.sunlight);
+    return shade(*shading, c.normal, fragment.to_viewer, c.sunlight);
   }
 };
 
