@@ -33,7 +33,7 @@ template <Scalar T>
                   s * dot(cross(tangent, bitangent), direction)};
   const T widest = max_abs(vec2<T>{m.x, m.y});
   const T steepest = constant<T>(max_slope);
-  const mask_t<T> below = !(zero < m.z) | (steepest * m.z < widest);
+  const mask_t<T> below = (!(zero < m.z)) | (steepest * m.z < widest);
   const vec3<T> solved = normalize_or_zero(vec3<T>{m.x, m.y, select(below, widest / steepest, m.z)});
   const mask_t<T> directed = regular & (zero < max_abs(solved));
   return {select<T>(directed, solved, flat), !regular, mask_t<T>(regular & below)};

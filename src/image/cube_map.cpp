@@ -121,16 +121,13 @@ vec3<double> cube_direction(int face, vec2<double> st) {
   }
 }
 
-std::variant<CubeMap, CubeFault> make_cube_map(const std::array<const Image*, 6>& faces) {
-  if (const auto fault = fault_of(faces)) return *fault;
-  std::array<Map, 6> maps;
-  for (int f = 0; f < 6; ++f) maps[f] = make_direction_map(*faces[f], true);
+CubeMap cube_of_faces(const std::array<Map, 6>& faces) {
   CubeMap cube;
   Map& map = cube.map;
   map.components = 3;
-  map.level_count = maps[0].level_count;
+  map.level_count = faces[0].level_count;
   for (int level = 0; level < map.level_count; ++level) {
-    const Level source{maps, level, maps[0].width(level)};
+    const Level source{faces, level, faces[0].width(level)};
     const auto width = static_cast<std::uint32_t>(source.size + 2);
     map.level_table.insert(map.level_table.end(),
                            {width, 6 * width, static_cast<std::uint32_t>(map.words.size())});
@@ -143,6 +140,13 @@ std::variant<CubeMap, CubeFault> make_cube_map(const std::array<const Image*, 6>
         }
   }
   return cube;
+}
+
+std::variant<CubeMap, CubeFault> make_cube_map(const std::array<const Image*, 6>& faces) {
+  if (const auto fault = fault_of(faces)) return *fault;
+  std::array<Map, 6> maps;
+  for (int f = 0; f < 6; ++f) maps[f] = make_direction_map(*faces[f], true);
+  return cube_of_faces(maps);
 }
 
 std::variant<CubeMap, CubeFault> make_cube_map(const Image& image) {

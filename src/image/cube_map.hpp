@@ -61,6 +61,10 @@ inline constexpr int max_cube_size = 8192;
 /// Fails for any other shape, and as for six images.
 [[nodiscard]] std::variant<CubeMap, CubeFault> make_cube_map(const Image& image);
 
+/// The cube map of six square maps in the order and orientation of CubeMap: three components, one size and
+/// one number of levels. They may hold anything, light for one; it is kept as it is.
+[[nodiscard]] CubeMap cube_of_faces(const std::array<Map, 6>& faces);
+
 /// The direction, not of unit length, at a point of a face: st runs from (-1, -1), lower left, to (1, 1).
 [[nodiscard]] vec3<double> cube_direction(int face, vec2<double> st);
 

@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -13,12 +15,14 @@ namespace surfgrad::render {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Texels of the blurred panoramas: a lobe of the roughness that a bumped surface shows is wider.
-constexpr int blurred_width = 64;
-constexpr int blurred_height = 32;
-/// Texels of the source that the blur sums over.
+/// Texels along a face of the blurred cubes, 3 degrees each: the cosine bends little within them, and the
+/// lobe of the roughness that a bumped surface shows is 19 degrees wide.
+constexpr int blurred_size = 32;
+/// Texels of the source that the blur sums over, and how many of them side by side make one where the lobe
+/// is flat.
 constexpr int source_width = 128;
 constexpr int source_height = 64;
+constexpr int merged = 4;
 
 vec3<double> direction_of(double column, double row, int width, int height) {
   const SinCos<double> azimuth = sin_cos_turns((column + 0.5) / width); // 0 towards +z, growing towards -x
@@ -26,10 +30,18 @@ vec3<double> direction_of(double column, double row, int width, int height) {
   return {-azimuth.sin * elevation.cos, elevation.sin, azimuth.cos * elevation.cos};
 }
 
+/// A piece of the sky.
 struct Patch {
-  vec3<double> direction;
-  vec3<double> radiance;
-  double solid_angle;
+  vec3<double> direction{0, 0, 0};
+  vec3<double> light{0, 0, 0}; ///< radiance times solid angle
+  double solid_angle = 0;
+};
+
+/// The sky twice: in small patches, and in large ones of merged * merged small ones, which lie together.
+struct Sky {
+  static constexpr int children = merged * merged;
+  std::vector<Patch> small = std::vector<Patch>(std::size_t{source_width} * source_height);
+  std::vector<Patch> large = std::vector<Patch>(small.size() / children);
 };
 
 vec3<double> texel_rgb(const image::Image& image, int x, int y) {
@@ -40,91 +52,126 @@ vec3<double> texel_rgb(const image::Image& image, int x, int y) {
           finite(image.at(x, y, grey ? 0 : 2))};
 }
 
-/// The panorama as a few thousand patches of sky, each the mean of the texels inside it, or the texel
-/// around its lower left corner where texels are larger.
-std::vector<Patch> patches_of(const image::Image& panorama) {
-  constexpr int width = source_width;
-  constexpr int height = source_height;
-  std::vector<Patch> patches;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const auto from = [](int i, int n, int size) {
-        return static_cast<int>(static_cast<long long>(i) * size / n);
-      };
-      const int u_begin = from(x, width, panorama.width);
-      const int v_begin = from(y, height, panorama.height);
-      const int u_end = std::max(from(x + 1, width, panorama.width), u_begin + 1);
-      const int v_end = std::max(from(y + 1, height, panorama.height), v_begin + 1);
-      vec3<double> sum{0, 0, 0};
-      for (int v = v_begin; v < v_end; ++v)
-        for (int u = u_begin; u < u_end; ++u) sum = sum + texel_rgb(panorama, u, v);
-      const double count = static_cast<double>(u_end - u_begin) * (v_end - v_begin);
-      const auto sine_at = [](int row) {
-        return sin_cos_turns(0.5 * (static_cast<double>(row) / height - 0.5)).sin;
-      };
-      patches.push_back({direction_of(x, y, width, height), (1.0 / count) * sum,
-                         2 * pi / width * (sine_at(y + 1) - sine_at(y))});
-    }
-  return patches;
+/// A small patch is the mean of the texels inside it, or the texel around its lower left corner where
+/// texels are larger.
+Patch small_patch(const image::Image& panorama, int x, int y, double solid_angle) {
+  const auto from = [](int i, int n, int size) {
+    return static_cast<int>(static_cast<long long>(i) * size / n);
+  };
+  const int u_begin = from(x, source_width, panorama.width);
+  const int v_begin = from(y, source_height, panorama.height);
+  const int u_end = std::max(from(x + 1, source_width, panorama.width), u_begin + 1);
+  const int v_end = std::max(from(y + 1, source_height, panorama.height), v_begin + 1);
+  vec3<double> sum{0, 0, 0};
+  for (int v = v_begin; v < v_end; ++v)
+    for (int u = u_begin; u < u_end; ++u) sum = sum + texel_rgb(panorama, u, v);
+  const double count = static_cast<double>(u_end - u_begin) * (v_end - v_begin);
+  return {direction_of(x, y, source_width, source_height), (solid_angle / count) * sum, solid_angle};
 }
 
-/// Weighted mean of the patches around every direction; the weight is a function of the cosine.
-template <class Weight>
-image::Image blurred(const std::vector<Patch>& patches, const Weight& weight) {
-  image::Image result = image::make_image(blurred_width, blurred_height, 3, image::Depth::float32);
-  tbb::parallel_for(0, blurred_height, [&](int y) {
-    for (int x = 0; x < blurred_width; ++x) {
-      const vec3<double> d = direction_of(x, y, blurred_width, blurred_height);
-      vec3<double> sum{0, 0, 0};
-      double total = 0;
-      for (const Patch& p : patches) {
-        const double w = weight(dot(d, p.direction)) * p.solid_angle;
-        sum = sum + w * p.radiance;
-        total += w;
+Sky sky_of(const image::Image& panorama) {
+  constexpr int columns = source_width / merged;
+  Sky sky;
+  tbb::parallel_for(0, source_height / merged, [&](int row) {
+    for (int y = row * merged; y < (row + 1) * merged; ++y) {
+      const auto sine_at = [](int border) {
+        return sin_cos_turns(0.5 * (static_cast<double>(border) / source_height - 0.5)).sin;
+      };
+      const double solid_angle = 2 * pi / source_width * (sine_at(y + 1) - sine_at(y));
+      for (int x = 0; x < source_width; ++x) {
+        const Patch patch = small_patch(panorama, x, y, solid_angle);
+        const std::size_t parent = static_cast<std::size_t>(row) * columns + x / merged;
+        sky.small[parent * Sky::children + (y % merged) * merged + x % merged] = patch;
+        Patch& large = sky.large[parent];
+        large.direction = large.direction + patch.solid_angle * patch.direction;
+        large.light = large.light + patch.light;
+        large.solid_angle += patch.solid_angle;
       }
-      result.at(x, y, 0) = static_cast<float>(sum.x / total);
-      result.at(x, y, 1) = static_cast<float>(sum.y / total);
-      result.at(x, y, 2) = static_cast<float>(sum.z / total);
+    }
+    for (std::size_t i = 0; i < columns; ++i) {
+      vec3<double>& direction = sky.large[static_cast<std::size_t>(row) * columns + i].direction;
+      direction = normalize_or_zero(direction);
     }
   });
-  return result;
+  return sky;
+}
+
+/// The cosine law.
+struct Diffuse {
+  [[nodiscard]] double weight(double c) const { return std::max(c, 0.0); }
+  /// Linear over a large patch but for one that the horizon may cut: its corners are 8 degrees away.
+  [[nodiscard]] bool bends(double c) const { return std::abs(c) < 0.14; }
+};
+
+/// Light from l reaches the eye at the mirror direction's surface normal through the half vector:
+/// cos^2(h) = (1 + dot(l, mirror)) / 2 for a view along the normal.
+struct Glossy {
+  double alpha;
+
+  [[nodiscard]] double weight(double c) const {
+    const double cos2 = 0.5 * (1 + c);
+    const double d = cos2 * (alpha * alpha - 1) + 1;
+    return std::max(c, 0.0) / (d * d);
+  }
+  /// Beyond 45 degrees lies a tenth of the lobe, and taking it at the middle of a large patch of 11
+  /// degrees is 5 percent off: the lobe falls as the fourth power of the angle.
+  [[nodiscard]] bool bends(double c) const { return c > 0.7; }
+};
+
+/// Weighted mean of the sky around a direction.
+template <class Lobe>
+vec3<double> blurred(const Sky& sky, const Lobe& lobe, vec3<double> direction) {
+  vec3<double> sum{0, 0, 0};
+  double total = 0;
+  const auto add = [&](const Patch& p, double c) {
+    const double w = lobe.weight(c);
+    sum = sum + w * p.light;
+    total += w * p.solid_angle;
+  };
+  for (std::size_t i = 0; i < sky.large.size(); ++i) {
+    const double c = dot(direction, sky.large[i].direction);
+    if (!lobe.bends(c)) {
+      if (c > 0) add(sky.large[i], c);
+      continue;
+    }
+    const Patch* small = &sky.small[i * Sky::children];
+    for (int k = 0; k < Sky::children; ++k) add(small[k], dot(direction, small[k].direction));
+  }
+  return (1 / total) * sum;
+}
+
+template <class Lobe>
+image::CubeMap blurred_cube(const Sky& sky, const Lobe& lobe) {
+  constexpr int size = blurred_size;
+  const auto side = static_cast<std::uint32_t>(size);
+  std::array<image::Map, 6> faces;
+  for (image::Map& face : faces) {
+    face = {.components = 3, .level_count = 1, .level_table = {side, side, 0}};
+    face.words.resize(std::size_t{3} * side * side);
+  }
+  tbb::parallel_for(0, 6 * size, [&](int row) {
+    const int face = row / size;
+    const int y = row % size;
+    std::uint32_t* word = &faces[face].words[std::size_t{3} * side * y];
+    const auto centre = [](int i) { return (2.0 * i + 1) / blurred_size - 1; };
+    for (int x = 0; x < size; ++x) {
+      const vec3<double> direction = normalize_or_zero(image::cube_direction(face, {centre(x), centre(y)}));
+      const vec3<double> light = blurred(sky, lobe, direction);
+      for (const double c : {light.x, light.y, light.z})
+        *word++ = std::bit_cast<std::uint32_t>(static_cast<float>(c));
+    }
+  });
+  return image::cube_of_faces(faces);
 }
 
 } // namespace
 
 Environment::Environment(const image::Image& panorama, double roughness) {
-  const std::vector<Patch> patches = patches_of(panorama);
-  diffuse_ = blurred(patches, [](double c) { return std::max(c, 0.0); });
+  const Sky sky = sky_of(panorama);
+  diffuse_ = blurred_cube(sky, Diffuse{});
   // Below this the lobe would fall between the patches.
   const double alpha = std::max(roughness * roughness, 0.05);
-  specular_ = blurred(patches, [alpha](double c) {
-    if (c <= 0) return 0.0;
-    // Light from l reaches the eye at the mirror direction's surface normal through the half vector:
-    // cos^2(h) = (1 + dot(l, mirror)) / 2 for a view along the normal.
-    const double cos2 = 0.5 * (1 + c);
-    const double d = cos2 * (alpha * alpha - 1) + 1;
-    return alpha * alpha / (d * d) * c;
-  });
-}
-
-vec3<double> Environment::look_up(const image::Image& panorama, vec3<double> direction) {
-  const double azimuth = std::atan2(-direction.x, direction.z);
-  const double elevation = std::asin(std::clamp(direction.y, -1.0, 1.0));
-  const double turns = azimuth / (2 * pi);
-  const double x = (turns - std::floor(turns)) * panorama.width - 0.5;
-  const double y = std::clamp((elevation / pi + 0.5) * panorama.height - 0.5, 0.0, panorama.height - 1.0);
-  // to_index sends NaN to a texel too.
-  const int x0 = to_index(std::floor(x));
-  const int y0 = std::min(to_index(y), panorama.height - 1);
-  const int y1 = std::min(y0 + 1, panorama.height - 1);
-  const double fx = x - x0;
-  const double fy = y - y0;
-  const auto column = [&](int i) { return (i + panorama.width) % panorama.width; };
-  const vec3<double> low =
-      (1 - fx) * texel_rgb(panorama, column(x0), y0) + fx * texel_rgb(panorama, column(x0 + 1), y0);
-  const vec3<double> high =
-      (1 - fx) * texel_rgb(panorama, column(x0), y1) + fx * texel_rgb(panorama, column(x0 + 1), y1);
-  return (1 - fy) * low + fy * high;
+  specular_ = blurred_cube(sky, Glossy{alpha});
 }
 
 image::Image built_in_sky() {

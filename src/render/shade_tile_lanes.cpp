@@ -1,6 +1,8 @@
 // Compiled once for each instruction set.
 
 #include "render/shade_tile.hpp"
+
+#include "render/display.hpp"
 #include "simd/object_scalar.hpp"
 
 namespace surfgrad::render::SURFGRAD_ISA_NAMESPACE {
