@@ -95,19 +95,9 @@ class QuietSink {
   std::exception_ptr failure_{};
 };
 
-/// The nearest integer code to a value: below 0 and NaN give 0, above 1 gives the largest code.
-template <class Code>
-[[nodiscard]] Code to_code(float value) {
-  constexpr float largest = static_cast<float>(static_cast<Code>(~Code{0}));
-  const float not_below = value > 0.0f ? value : 0.0f; // also NaN
-  const float clamped = not_below < 1.0f ? not_below : 1.0f;
-  return static_cast<Code>(static_cast<std::int32_t>(clamped * largest + 0.5f));
-}
-
-/// The same for a row, eight at a time where the machine can: `codes` has room for all.
-template <class Code>
-void to_codes(std::span<const float> values, Code* codes) {
-  for (std::size_t i = 0; i < values.size(); ++i) codes[i] = to_code<Code>(values[i]);
-}
+/// The nearest integer code to each value: below 0 and NaN give 0, above 1 gives the largest code.
+/// `codes` has room for all.
+void to_codes(std::span<const float> values, std::uint8_t* codes);
+void to_codes(std::span<const float> values, std::uint16_t* codes);
 
 } // namespace surfgrad::io::codec

@@ -61,7 +61,8 @@ class ExrEncoder : public Encoder {
     translate(stream_, [&] {
       Imf::Header header(order.shape.width, order.shape.height);
       header.compression() = Imf::ZIP_COMPRESSION;
-      header.zipCompressionLevel() = order.compression == Compression::fast ? fast_level : small_level;
+      // Level 6 takes three times as long as level 1 to save a twentieth to an eighth.
+      header.zipCompressionLevel() = order.compression == Compression::fast ? 1 : 6;
       for (int i = 0; i < channels_; ++i) header.channels().insert(channel_name(i), Imf::Channel(type_));
       constexpr int no_threads = 0; // callers decide about threads, not the library
       file_.emplace(stream_, header, no_threads);
@@ -82,9 +83,6 @@ class ExrEncoder : public Encoder {
   }
 
  private:
-  static constexpr int fast_level = 4;
-  static constexpr int small_level = 9;
-
   [[nodiscard]] const char* channel_name(int channel) const {
     static constexpr std::array<std::array<const char*, 4>, 4> names{
         {{"Y"}, {"R", "G"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};

@@ -224,7 +224,7 @@ void expect_nearest_codes() {
     for (const double step : {0.0, 7.0 / 16, 9.0 / 16})
       values.push_back(static_cast<float>((code + step) / codes));
   std::vector<Code> found(values.size());
-  io::codec::to_codes<Code>(values, found.data());
+  io::codec::to_codes(values, found.data());
   for (std::size_t i = 0; i < values.size(); ++i)
     EXPECT_EQ(found[i], nearest_code<Code>(values[i])) << values[i];
 }
