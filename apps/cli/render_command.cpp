@@ -36,7 +36,6 @@ void run(RenderCommand& command) {
   command.job.height = size.height;
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm8);
-  render::check_options(command.job);
   check_output(output, depth);
   Console console("rendering", command.common.quiet);
   on_threads(command.common.threads, [&] {
@@ -52,7 +51,7 @@ void run(RenderCommand& command) {
     const render::Picture picture = render::render(scene, command.job, console.report());
     const bool raw = depth == image::Depth::half || depth == image::Depth::float32;
     write_unless_interrupted(
-        output, raw ? picture.image : render::encoded_for_display(picture, command.job.aov), depth);
+        output, raw ? picture.image : render::encoded_for_display(picture.image, command.job.aov), depth);
     if (command.common.json) {
       console.say_json({{"output", output.string()},
                         {"width", size.width},

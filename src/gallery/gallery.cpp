@@ -80,7 +80,6 @@ Drawn draw(const std::vector<Figure>& figures, const Options& options, const Rep
   for (const Figure& figure : figures)
     for (const Panel& panel : figure.panels) jobs.emplace_back(&figure, &panel);
   const render::Options look{.width = options.width, .height = options.height, .samples = options.samples};
-  render::check_options(look);
 
   Drawn drawn;
   drawn.pictures.resize(jobs.size());
