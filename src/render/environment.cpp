@@ -18,8 +18,8 @@ constexpr double pi = std::numbers::pi;
 /// Texels along a face of the blurred cubes, 3 degrees each: the cosine bends little within them, and the
 /// lobe of the roughness that a bumped surface shows is 19 degrees wide.
 constexpr int blurred_size = 32;
-/// Texels of the source that the blur sums over, and how many of them side by side make one where the lobe
-/// is flat.
+/// Texels of the source that the blur sums over, and how many of them, along a side, make one patch where
+/// the lobe is flat.
 constexpr int source_width = 128;
 constexpr int source_height = 64;
 constexpr int merged = 4;
@@ -30,11 +30,13 @@ vec3<double> direction_of(double column, double row, int width, int height) {
   return {-azimuth.sin * elevation.cos, elevation.sin, azimuth.cos * elevation.cos};
 }
 
-/// A piece of the sky.
+/// A piece of the sky: how much light it sends and how much of the sky it is, and the centres of gravity of
+/// the two. These differ where a large piece holds a lamp.
 struct Patch {
-  vec3<double> direction{0, 0, 0};
-  vec3<double> light{0, 0, 0}; ///< radiance times solid angle
-  double solid_angle = 0;
+  vec3<float> light; ///< radiance times solid angle
+  float solid_angle;
+  vec3<float> light_from;
+  vec3<float> from;
 };
 
 /// The sky twice: in small patches, and in large ones of merged * merged small ones, which lie together.
@@ -43,6 +45,11 @@ struct Sky {
   std::vector<Patch> small = std::vector<Patch>(std::size_t{source_width} * source_height);
   std::vector<Patch> large = std::vector<Patch>(small.size() / children);
 };
+
+vec3<float> as_float(vec3<double> v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+vec3<double> as_double(vec3<float> v) { return {v.x, v.y, v.z}; }
 
 vec3<double> texel_rgb(const image::Image& image, int x, int y) {
   const bool grey = image.channels < 3;
@@ -66,99 +73,132 @@ Patch small_patch(const image::Image& panorama, int x, int y, double solid_angle
   for (int v = v_begin; v < v_end; ++v)
     for (int u = u_begin; u < u_end; ++u) sum = sum + texel_rgb(panorama, u, v);
   const double count = static_cast<double>(u_end - u_begin) * (v_end - v_begin);
-  return {direction_of(x, y, source_width, source_height), (solid_angle / count) * sum, solid_angle};
+  const vec3<float> direction = as_float(direction_of(x, y, source_width, source_height));
+  return {as_float((solid_angle / count) * sum), static_cast<float>(solid_angle), direction, direction};
+}
+
+Patch merge(const Patch* small) {
+  vec3<double> light{0, 0, 0};
+  vec3<double> light_from{0, 0, 0};
+  vec3<double> from{0, 0, 0};
+  double brightness = 0;
+  double solid_angle = 0;
+  for (int k = 0; k < Sky::children; ++k) {
+    const vec3<double> l = as_double(small[k].light);
+    const vec3<double> d = as_double(small[k].from);
+    light = light + l;
+    light_from = light_from + (l.x + l.y + l.z) * d;
+    brightness += l.x + l.y + l.z;
+    from = from + double{small[k].solid_angle} * d;
+    solid_angle += small[k].solid_angle;
+  }
+  return {as_float(light), static_cast<float>(solid_angle),
+          as_float(reciprocal_or_zero(brightness) * light_from), as_float((1 / solid_angle) * from)};
 }
 
 Sky sky_of(const image::Image& panorama) {
   constexpr int columns = source_width / merged;
   Sky sky;
   tbb::parallel_for(0, source_height / merged, [&](int row) {
-    for (int y = row * merged; y < (row + 1) * merged; ++y) {
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
+    for (int y = 0; y < merged; ++y) {
+      const int v = row * merged + y;
       const auto sine_at = [](int border) {
         return sin_cos_turns(0.5 * (static_cast<double>(border) / source_height - 0.5)).sin;
       };
-      const double solid_angle = 2 * pi / source_width * (sine_at(y + 1) - sine_at(y));
-      for (int x = 0; x < source_width; ++x) {
-        const Patch patch = small_patch(panorama, x, y, solid_angle);
-        const std::size_t parent = static_cast<std::size_t>(row) * columns + x / merged;
-        sky.small[parent * Sky::children + (y % merged) * merged + x % merged] = patch;
-        Patch& large = sky.large[parent];
-        large.direction = large.direction + patch.solid_angle * patch.direction;
-        large.light = large.light + patch.light;
-        large.solid_angle += patch.solid_angle;
-      }
+      const double solid_angle = 2 * pi / source_width * (sine_at(v + 1) - sine_at(v));
+      for (int x = 0; x < source_width; ++x)
+        sky.small[(first + x / merged) * Sky::children + y * merged + x % merged] =
+            small_patch(panorama, x, v, solid_angle);
     }
-    for (std::size_t i = 0; i < columns; ++i) {
-      vec3<double>& direction = sky.large[static_cast<std::size_t>(row) * columns + i].direction;
-      direction = normalize_or_zero(direction);
-    }
+    for (std::size_t i = first; i < first + columns; ++i) sky.large[i] = merge(&sky.small[i * Sky::children]);
   });
   return sky;
 }
 
-/// The cosine law.
+/// The cosine law: linear, so that a large patch does as well as its small ones wherever the horizon does not
+/// cut it, and nearly so there.
 struct Diffuse {
-  [[nodiscard]] double weight(double c) const { return std::max(c, 0.0); }
-  /// Linear over a large patch but for one that the horizon may cut: its corners are 8 degrees away.
-  [[nodiscard]] bool bends(double c) const { return std::abs(c) < 0.14; }
+  [[nodiscard]] static float weight(float c) { return c > 0 ? c : 0; }
+  [[nodiscard]] static bool bends(float) { return false; }
 };
 
 /// Light from l reaches the eye at the mirror direction's surface normal through the half vector:
 /// cos^2(h) = (1 + dot(l, mirror)) / 2 for a view along the normal.
 struct Glossy {
-  double alpha;
+  float narrowing; ///< alpha^2 - 1
 
-  [[nodiscard]] double weight(double c) const {
-    const double cos2 = 0.5 * (1 + c);
-    const double d = cos2 * (alpha * alpha - 1) + 1;
-    return std::max(c, 0.0) / (d * d);
+  [[nodiscard]] float weight(float c) const {
+    const float d = 0.5f * (1 + c) * narrowing + 1;
+    return (c > 0 ? c : 0) / (d * d);
   }
-  /// Beyond 45 degrees lies a tenth of the lobe, and taking it at the middle of a large patch of 11
-  /// degrees is 5 percent off: the lobe falls as the fourth power of the angle.
-  [[nodiscard]] bool bends(double c) const { return c > 0.7; }
+  /// Beyond 32 degrees lies a fifth of the lobe, and evenly lit large patches of 11 degrees, taken at their
+  /// middle, are up to 5 percent off.
+  [[nodiscard]] static bool bends(float c) { return c > 0.85f; }
 };
 
-/// Weighted mean of the sky around a direction.
+/// Texels whose light is summed side by side: compilers make vectors of them.
+constexpr int abreast = 8;
+using Abreast = std::array<float, abreast>;
+
+/// Weighted means of the sky around some directions.
 template <class Lobe>
-vec3<double> blurred(const Sky& sky, const Lobe& lobe, vec3<double> direction) {
-  vec3<double> sum{0, 0, 0};
-  double total = 0;
-  const auto add = [&](const Patch& p, double c) {
-    const double w = lobe.weight(c);
-    sum = sum + w * p.light;
-    total += w * p.solid_angle;
+std::array<vec3<float>, abreast> blurred(const Sky& sky, const Lobe& lobe,
+                                         const std::array<vec3<float>, abreast>& directions) {
+  Abreast x, y, z;
+  for (int k = 0; k < abreast; ++k) {
+    x[k] = directions[k].x;
+    y[k] = directions[k].y;
+    z[k] = directions[k].z;
+  }
+  const auto cosine = [&](int k, vec3<float> d) { return x[k] * d.x + y[k] * d.y + z[k] * d.z; };
+  Abreast red{}, green{}, blue{}, total{};
+  const auto add = [&](const Patch p) {
+    for (int k = 0; k < abreast; ++k) {
+      const float w = lobe.weight(cosine(k, p.light_from));
+      red[k] += w * p.light.x;
+      green[k] += w * p.light.y;
+      blue[k] += w * p.light.z;
+      total[k] += lobe.weight(cosine(k, p.from)) * p.solid_angle;
+    }
   };
   for (std::size_t i = 0; i < sky.large.size(); ++i) {
-    const double c = dot(direction, sky.large[i].direction);
-    if (!lobe.bends(c)) {
-      if (c > 0) add(sky.large[i], c);
+    const vec3<float> from = sky.large[i].from;
+    float nearest = -1;
+    for (int k = 0; k < abreast; ++k) nearest = std::max(nearest, cosine(k, from));
+    if (nearest < -0.2f) continue; // wholly below the horizon: corners are 8 degrees away
+    if (!lobe.bends(nearest)) {
+      add(sky.large[i]);
       continue;
     }
-    const Patch* small = &sky.small[i * Sky::children];
-    for (int k = 0; k < Sky::children; ++k) add(small[k], dot(direction, small[k].direction));
+    for (std::size_t k = i * Sky::children; k < (i + 1) * Sky::children; ++k) add(sky.small[k]);
   }
-  return (1 / total) * sum;
+  std::array<vec3<float>, abreast> means;
+  for (int k = 0; k < abreast; ++k) means[k] = (1 / total[k]) * vec3<float>{red[k], green[k], blue[k]};
+  return means;
 }
 
 template <class Lobe>
 image::CubeMap blurred_cube(const Sky& sky, const Lobe& lobe) {
-  constexpr int size = blurred_size;
-  const auto side = static_cast<std::uint32_t>(size);
+  constexpr std::uint32_t side = blurred_size;
   std::array<image::Map, 6> faces;
   for (image::Map& face : faces) {
     face = {.components = 3, .level_count = 1, .level_table = {side, side, 0}};
     face.words.resize(std::size_t{3} * side * side);
   }
-  tbb::parallel_for(0, 6 * size, [&](int row) {
-    const int face = row / size;
-    const int y = row % size;
-    std::uint32_t* word = &faces[face].words[std::size_t{3} * side * y];
+  static_assert(blurred_size % abreast == 0);
+  tbb::parallel_for(0, 6 * blurred_size, [&](int row) {
+    const int face = row / blurred_size;
+    const int y = row % blurred_size;
     const auto centre = [](int i) { return (2.0 * i + 1) / blurred_size - 1; };
-    for (int x = 0; x < size; ++x) {
-      const vec3<double> direction = normalize_or_zero(image::cube_direction(face, {centre(x), centre(y)}));
-      const vec3<double> light = blurred(sky, lobe, direction);
-      for (const double c : {light.x, light.y, light.z})
-        *word++ = std::bit_cast<std::uint32_t>(static_cast<float>(c));
+    std::uint32_t* word = &faces[face].words[std::size_t{3} * side * y];
+    for (int first = 0; first < blurred_size; first += abreast) {
+      std::array<vec3<float>, abreast> directions;
+      for (int k = 0; k < abreast; ++k)
+        directions[k] =
+            as_float(normalize_or_zero(image::cube_direction(face, {centre(first + k), centre(y)})));
+      for (const vec3<float>& light : blurred(sky, lobe, directions))
+        for (const float c : {light.x, light.y, light.z}) *word++ = std::bit_cast<std::uint32_t>(c);
     }
   });
   return image::cube_of_faces(faces);
@@ -171,7 +211,7 @@ Environment::Environment(const image::Image& panorama, double roughness) {
   diffuse_ = blurred_cube(sky, Diffuse{});
   // Below this the lobe would fall between the patches.
   const double alpha = std::max(roughness * roughness, 0.05);
-  specular_ = blurred_cube(sky, Glossy{alpha});
+  specular_ = blurred_cube(sky, Glossy{static_cast<float>(alpha * alpha - 1)});
 }
 
 image::Image built_in_sky() {

@@ -110,15 +110,16 @@ template <LaneScalar T>
     const T cos_sun = dot(normal, to_sun);
     const T cos_light = max(cos_sun, zero);
     // The half vector is sum / |sum|; its length squared stays in the formulas, so that neither is divided:
-    //   cos^2(h) = across / square,  dot(h, v) = |sum| / 2
+    //   cos^2(h) = along^2 / square,  dot(h, v) = |sum| / 2
     const vec3<T> sum = to_sun + to_viewer;
     const T square = max(dot(sum, sum), constant<T>(1e-8)); // the sun right behind: powers stay in range
-    const T across = min((cos_sun + facing) * (cos_sun + facing), square);
+    const T along = cos_sun + facing;                       // the normal
+    const T along2 = min(along * along, square);
     const T half_view = min(constant<T>(0.5) * sqrt(square), one);
     const T fresnel = constant<T>(f0) + constant<T>(1 - f0) * grazing(half_view);
     // Distribution and visibility over one denominator:
     //   D = alpha^2 square^2 / (pi spread^2),  V = 1 / (2 smith)
-    const T spread = square - constant<T>(1 - alpha * alpha) * across;
+    const T spread = square - constant<T>(1 - alpha * alpha) * along2;
     const T seen = max(cos_view, constant<T>(1e-4));
     const T smith = cos_light * smith_root(seen) + seen * smith_root(cos_light);
     const T gloss = constant<T>(alpha * alpha / (2 * std::numbers::pi)) * fresnel * (square * square) /
