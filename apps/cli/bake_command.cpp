@@ -39,12 +39,13 @@ void run(BakeCommand& command) {
   command.job.height = size.height;
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
+  check_memory(size);
   check_output(output, depth);
   Console console("baking", command.common.quiet);
   on_threads(command.common.threads, [&] {
-    const scene::Scene scene = open_scene(command.common);
+    const scene::Scene scene = open_scene(command.common, console.report());
     const bake::Baked baked = bake::bake(scene, command.job, console.report());
-    write_unless_interrupted(output, baked.map, depth);
+    write_unless_interrupted(output, baked.map, depth, command.common.compression);
     if (command.common.json) {
       console.say_json({{"output", output.string()},
                         {"width", size.width},

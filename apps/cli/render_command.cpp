@@ -37,10 +37,11 @@ void run(RenderCommand& command) {
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm8);
   render::check_options(command.job);
+  check_memory(size);
   check_output(output, depth);
   Console console("rendering", command.common.quiet);
   on_threads(command.common.threads, [&] {
-    scene::Scene scene = open_scene(command.common);
+    scene::Scene scene = open_scene(command.common, console.report());
     if (command.view) {
       scene.camera.yaw_deg = command.view->first;
       scene.camera.pitch_deg = command.view->second;
@@ -51,8 +52,9 @@ void run(RenderCommand& command) {
       scene.environment = std::make_shared<image::Image>(io::read_image(command.environment));
     const render::Picture picture = render::render(scene, command.job, console.report());
     const bool raw = depth == image::Depth::half || depth == image::Depth::float32;
-    write_unless_interrupted(
-        output, raw ? picture.image : render::encoded_for_display(picture, command.job.aov), depth);
+    write_unless_interrupted(output,
+                             raw ? picture.image : render::encoded_for_display(picture, command.job.aov),
+                             depth, command.common.compression);
     if (command.common.json) {
       console.say_json({{"output", output.string()},
                         {"width", size.width},

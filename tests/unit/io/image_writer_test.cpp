@@ -63,10 +63,6 @@ Image band_of(const Image& image, int bottom, int count) {
   return band;
 }
 
-io::ImageShape shape_of(const Image& image) {
-  return {image.width, image.height, image.channels, image.has_alpha};
-}
-
 TEST(ImageWriter, BandsOfAnyHeightGiveTheBytesOfTheWholePicture) {
   const std::uint64_t seed = 77;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -81,7 +77,7 @@ TEST(ImageWriter, BandsOfAnyHeightGiveTheBytesOfTheWholePicture) {
         const auto whole = io::read_file(folder.path() / target.file);
         for (const int largest_band : {1, 7, 16, 82}) {
           SCOPED_TRACE("bands up to " + std::to_string(largest_band));
-          ImageWriter writer(folder.path() / target.file, shape_of(image), target.depth, compression);
+          ImageWriter writer(folder.path() / target.file, io::shape_of(image), target.depth, compression);
           for (int left = image.height; left > 0;) {
             const int count = std::min(left, 1 + random.integer(largest_band));
             left -= count;
