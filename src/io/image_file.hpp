@@ -29,6 +29,10 @@ struct ImageShape {
   bool has_alpha = false; ///< the last channel is opacity, which only TIFF tells from data
 };
 
+[[nodiscard]] inline ImageShape shape_of(const image::Image& image) {
+  return {image.width, image.height, image.channels, image.has_alpha};
+}
+
 /// Reads PNG, TIFF, OpenEXR, JPEG, Radiance HDR or TGA, decided by the content, not by the name.
 ///
 /// Channels: 1 grey, 2 grey+alpha (or the two channels of an EXR or TIFF), 3 rgb, 4 rgba.

@@ -107,10 +107,6 @@ void require_shape(const Format& format, const ImageShape& shape, const fs::path
                                                   static_cast<std::uint64_t>(std::max(shape.height, 0)));
 }
 
-ImageShape shape_of(const Image& image) {
-  return {image.width, image.height, image.channels, image.has_alpha};
-}
-
 void require_whole(const Image& image) {
   if (image.texels.size() != image.index(0, image.height))
     throw std::invalid_argument("image to write: texel count does not match its shape");

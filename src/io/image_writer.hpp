@@ -17,7 +17,8 @@ class OutputFile;
 /// those of write_image, whatever the bands.
 ///
 /// The file appears with commit(), whole; without it nothing is left behind and an old file stays as it
-/// was. The temporary file beside the target exists as long as the writer does.
+/// was. The temporary file beside the target exists as long as the writer does. Any thread may call it,
+/// one at a time; it encodes on that thread.
 class ImageWriter {
  public:
   /// Throws as write_image does for an image of this shape.

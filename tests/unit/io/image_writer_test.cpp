@@ -10,11 +10,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -54,6 +56,13 @@ Image picture(test::Random& random, int width, int height, int channels) {
   return image;
 }
 
+/// What nothing can pack.
+Image noise_of(test::Random& random, int side) {
+  Image image = image::make_image(side, side, 3);
+  for (float& texel : image.texels) texel = static_cast<float>(random.integer(1 << 24)) / (1 << 24);
+  return image;
+}
+
 /// The rows [bottom, bottom + count) as an image of their own.
 Image band_of(const Image& image, int bottom, int count) {
   Image band = image::make_image(image.width, count, image.channels);
@@ -61,10 +70,6 @@ Image band_of(const Image& image, int bottom, int count) {
   std::copy_n(image.texels.begin() + static_cast<std::ptrdiff_t>(image.index(0, bottom)), band.texels.size(),
               band.texels.begin());
   return band;
-}
-
-io::ImageShape shape_of(const Image& image) {
-  return {image.width, image.height, image.channels, image.has_alpha};
 }
 
 TEST(ImageWriter, BandsOfAnyHeightGiveTheBytesOfTheWholePicture) {
@@ -81,7 +86,7 @@ TEST(ImageWriter, BandsOfAnyHeightGiveTheBytesOfTheWholePicture) {
         const auto whole = io::read_file(folder.path() / target.file);
         for (const int largest_band : {1, 7, 16, 82}) {
           SCOPED_TRACE("bands up to " + std::to_string(largest_band));
-          ImageWriter writer(folder.path() / target.file, shape_of(image), target.depth, compression);
+          ImageWriter writer(folder.path() / target.file, io::shape_of(image), target.depth, compression);
           for (int left = image.height; left > 0;) {
             const int count = std::min(left, 1 + random.integer(largest_band));
             left -= count;
@@ -108,6 +113,51 @@ TEST(ImageWriter, TheFirstBandIsTheTopOfThePicture) {
     writer.write_rows(band);
     writer.commit();
     EXPECT_THAT(io::read_image(folder.path() / target.file).texels, ElementsAre(0.0f, 1.0f));
+  }
+}
+
+TEST(ImageWriter, RowsGoToTheFileAsTheyCome) {
+  test::Random random(9);
+  const TemporaryFolder folder;
+  const int side = 700;
+  const Image noise = noise_of(random, side);
+  for (const Target& target : targets) {
+    SCOPED_TRACE(target.file);
+    const auto size_of_the_only_file = [&] {
+      return std::filesystem::directory_iterator(folder.path())->file_size();
+    };
+    ImageWriter writer(folder.path() / target.file, io::shape_of(noise), target.depth);
+    writer.write_rows(noise, side / 2, side / 2);
+    const auto half = size_of_the_only_file();
+    writer.write_rows(noise, 0, side / 2);
+    writer.commit();
+    // A strip of a TIFF, the largest piece that is packed as one, holds a quarter megabyte.
+    EXPECT_GT(static_cast<double>(half), 0.5 * static_cast<double>(size_of_the_only_file()) - 262144);
+    std::filesystem::remove(folder.path() / target.file);
+  }
+}
+
+TEST(ImageWriter, TakesBandsFromAnyThreadOneAtATime) {
+  test::Random random(4);
+  const TemporaryFolder folder;
+  const Image image = picture(random, 300, 96, 3);
+  for (const Target& target : targets) {
+    SCOPED_TRACE(target.file);
+    io::write_image(folder.path() / target.file, image, target.depth);
+    const auto whole = io::read_file(folder.path() / target.file);
+    ImageWriter writer(folder.path() / target.file, io::shape_of(image), target.depth);
+    int left = image.height;
+    const auto next_band = [&](tbb::flow_control& flow) {
+      if (left == 0) flow.stop();
+      return left == 0 ? 0 : left -= 8;
+    };
+    const auto computed = [&](int bottom) { return band_of(image, bottom, 8); };
+    const auto write = [&](const Image& band) { writer.write_rows(band); };
+    tbb::parallel_pipeline(4, tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, next_band) &
+                                  tbb::make_filter<int, Image>(tbb::filter_mode::parallel, computed) &
+                                  tbb::make_filter<Image, void>(tbb::filter_mode::serial_in_order, write));
+    writer.commit();
+    EXPECT_TRUE(io::read_file(folder.path() / target.file) == whole);
   }
 }
 

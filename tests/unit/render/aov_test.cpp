@@ -120,7 +120,8 @@ TEST(Aov, BackFacesShowWhatTheirModeSays) {
 }
 
 TEST(Aov, IsEncodedForIntegerFilesWithinItsRange) {
-  Picture picture{image::make_image(2, 1, 3, image::Depth::float32)};
+  Picture picture;
+  picture.image = image::make_image(2, 1, 3, image::Depth::float32);
   picture.image.texels = {-1, 0, 1, 2.25f, -0.25f, 0};
   EXPECT_EQ(encoded_for_display(picture.image, Aov::normal).texels[0], 0);
   EXPECT_EQ(encoded_for_display(picture.image, Aov::normal).texels[1], 0.5f);

@@ -8,8 +8,10 @@
 #include <tbb/global_control.h>
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 namespace surfgrad::scene {
 namespace {
@@ -91,6 +93,7 @@ TEST(LoadInParallel, AsksBetweenFilesByOneThreadAtATimeAndStopsWhenTold) {
       EXPECT_EQ(++inside, 1);
       EXPECT_EQ(fraction, 0.0);
       ++asked;
+      std::this_thread::sleep_for(std::chrono::microseconds(300)); // for another to come in
       --inside;
       return true;
     };
