@@ -112,6 +112,19 @@ select(const EmulatedMask& m, const EmulatedLanes<Value, Tag>& a, const Emulated
   return detail::each_lane<EmulatedFloat>([](float x, float y) { return surfgrad::max(x, y); }, a, b);
 }
 [[nodiscard]] constexpr float lane(const EmulatedFloat& a, int i) { return a.lane[i]; }
+/// Whether an index is the same in all lanes that are active, and what it is there: 0 where none is.
+[[nodiscard]] constexpr bool same_in_all(const EmulatedIndex& a, const EmulatedMask& active,
+                                         std::int32_t& value) {
+  value = 0;
+  bool met = false;
+  for (int i = 0; i < emulated_width; ++i) {
+    if (!active.lane[i]) continue;
+    if (met && a.lane[i] != value) return false;
+    value = a.lane[i];
+    met = true;
+  }
+  return true;
+}
 /// Truncates; saturates; NaN gives 0.
 [[nodiscard]] constexpr EmulatedIndex to_index(const EmulatedFloat& a) {
   return detail::each_lane<EmulatedIndex>([](float x) { return surfgrad::to_index(x); }, a);
