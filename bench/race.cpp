@@ -150,11 +150,15 @@ void report_absent(const std::string& race, const std::string& peer, const std::
   print({{"kind", "absent"}, {"race", race}, {"peer", peer}, {"reason", reason}});
 }
 
-void on_threads(int threads, int count, int grain, const std::function<void(int, int)>& work) {
+void limited_to(int threads, const std::function<void()>& work) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  arena.execute([&] {
+  arena.execute(work);
+}
+
+void on_threads(int threads, int count, int grain, const std::function<void(int, int)>& work) {
+  limited_to(threads, [&] {
     tbb::parallel_for(tbb::blocked_range<int>(0, (count + grain - 1) / grain),
                       [&](const tbb::blocked_range<int>& blocks) {
                         for (int b = blocks.begin(); b < blocks.end(); ++b)

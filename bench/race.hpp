@@ -75,6 +75,9 @@ void report_note(const std::string& race, const std::string& text);
 /// Prints an `absent` line: a peer that could not take part.
 void report_absent(const std::string& race, const std::string& peer, const std::string& reason);
 
+/// Runs the work with at most this many threads.
+void limited_to(int threads, const std::function<void()>& work);
+
 /// Calls work(begin, end) on `threads` threads that share [0, count) in blocks of `grain`.
 void on_threads(int threads, int count, int grain, const std::function<void(int, int)>& work);
 
