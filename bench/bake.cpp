@@ -53,7 +53,7 @@ std::unique_ptr<ChildProcess> start_cycles(const fs::path& folder) {
   return blender;
 }
 
-/// Degrees between two maps of the same size, on average and at the 99th percentile.
+/// Degrees between two maps of the same size: what half and what 90 % of the texels keep within.
 void compare(const image::Image& ours, const image::Image& theirs) {
   std::vector<double> degrees;
   for (int y = 0; y < ours.height; ++y)
@@ -67,19 +67,21 @@ void compare(const image::Image& ours, const image::Image& theirs) {
       degrees.push_back(std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi);
     }
   std::sort(degrees.begin(), degrees.end());
-  double sum = 0;
-  for (const double d : degrees) sum += d;
-  const double count = static_cast<double>(degrees.size());
+  const auto percentile = [&](double share) {
+    return degrees[static_cast<std::size_t>(share * static_cast<double>(degrees.size() - 1))];
+  };
   report_note("bake",
-              fmt::format("without noise both maps differ by {:.3f} degrees on average, {:.3f} at the "
-                          "99th percentile",
-                          sum / count, degrees[static_cast<std::size_t>(0.99 * count)]));
+              fmt::format("Without noise and mip levels half of the texels are within {:.4f} degrees of "
+                          "Cycles', 90 % within {:.3f}. The others lie on edges of the maps: it blends "
+                          "the normals of neighbouring texels, surfgrad their slopes.",
+                          percentile(0.5), percentile(0.9)));
 }
 
-void compare_results(const scene::Scene& scene, ChildProcess& cycles, const fs::path& folder) {
-  constexpr int size = 512;
+void compare_results(const scene::Scene& scene, ChildProcess& cycles, const fs::path& folder, int size) {
   scene::Scene plain = scene;
   plain.materials[0].layers.resize(2);
+  for (stack::Layer& layer : plain.materials[0].layers)
+    std::get<stack::NormalMapLayer>(layer).map.filter = stack::Filter::bilinear; // Cycles knows no mip levels
   const fs::path file = folder / "cycles.exr";
   cycles.tell(fmt::format("save {} {}", size, file.string()));
   if (!cycles.answer()) return;
@@ -136,7 +138,7 @@ void race(const Request& request) {
     const scene::Scene scene = bake_scene(sizes[0]);
     write_inputs(scene, folder);
     const std::unique_ptr<ChildProcess> cycles = start_cycles(folder);
-    if (cycles) compare_results(scene, *cycles, folder);
+    if (cycles) compare_results(scene, *cycles, folder, sizes[0]);
     for (const int threads : request.threads) {
       std::vector<Result> ours(sizes.size());
       for (std::size_t i = 0; i < sizes.size(); ++i)

@@ -10,6 +10,11 @@ import sys
 import time
 
 import bpy
+import numpy
+
+# Debian 12 pairs this importer with a numpy that has dropped the old name.
+if not hasattr(numpy, "bool"):
+    numpy.bool = bool
 
 folder, frequency, height = sys.argv[sys.argv.index("--") + 1:][:3]
 
