@@ -1,22 +1,11 @@
 #pragma once
 
-/// What the samplers are asked, and the map they read, in plain arrays.
+/// What the samplers of the race are asked.
 
-#include <surfgrad/vec.hpp>
-
+#include <cstddef>
 #include <vector>
 
 namespace surfgrad::bench {
-
-/// Slopes as a mip pyramid of power-of-two squares, row 0 first; a level is the mean of 2x2 texels of the
-/// one above.
-struct SlopePyramid {
-  struct Level {
-    int size;
-    std::vector<vec2<float>> texels;
-  };
-  std::vector<Level> levels;
-};
 
 /// Where the map is read. All wraps repeat.
 struct LookupList {

@@ -4,6 +4,7 @@
 /// floats, texels side by side, no virtual calls. The yardstick of the sampler race.
 
 #include "lookups.hpp"
+#include "slope_pyramid.hpp"
 
 #include <cmath>
 

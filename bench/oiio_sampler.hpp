@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lookups.hpp"
+#include "slope_pyramid.hpp"
 
 #include <filesystem>
 #include <memory>

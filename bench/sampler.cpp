@@ -10,11 +10,10 @@
 #include "naive_sampler.hpp"
 #include "race.hpp"
 #include "scene/demo_maps.hpp"
+#include "slope_pyramid.hpp"
 #if SURFGRAD_BENCH_OIIO
 #include "oiio_sampler.hpp"
 #endif
-
-#include <surfgrad/derivative.hpp>
 
 #include <fmt/format.h>
 
@@ -36,28 +35,6 @@ image::Image in_eight_bits(image::Image map) {
   for (float& code : map.texels) code = std::floor(code * 255 + 0.5F) / 255;
   map.depth = image::Depth::unorm8;
   return map;
-}
-
-SlopePyramid pyramid_of(const image::Image& map) {
-  SlopePyramid pyramid;
-  pyramid.levels.push_back({map.width, {}});
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x) {
-      const auto decoded = [&](int channel) { return 2.0 * map.at(x, y, channel) - 1; };
-      const vec2<double> d = derivative_from_normal(vec3<double>{decoded(0), decoded(1), decoded(2)});
-      pyramid.levels[0].texels.push_back({static_cast<float>(d.x), static_cast<float>(d.y)});
-    }
-  while (pyramid.levels.back().size > 1) {
-    const SlopePyramid::Level& above = pyramid.levels.back();
-    SlopePyramid::Level level{above.size / 2, {}};
-    for (int y = 0; y < level.size; ++y)
-      for (int x = 0; x < level.size; ++x) {
-        const vec2<float>* at = above.texels.data() + static_cast<std::size_t>(2 * y) * above.size + 2 * x;
-        level.texels.push_back(0.25F * (at[0] + at[1] + at[above.size] + at[above.size + 1]));
-      }
-    pyramid.levels.push_back(std::move(level));
-  }
-  return pyramid;
 }
 
 LookupList coherent_lookups(int side) {
@@ -191,7 +168,7 @@ void race(const Request& request, int threads, Filtering filtering, const char* 
 void race(const Request& request) {
   const image::Image deep = scene::plates_normal_map(map_size);
   const image::Image flat = in_eight_bits(deep);
-  const SlopePyramid pyramid = pyramid_of(flat);
+  const SlopePyramid pyramid = make_slope_pyramid(flat);
   const image::SlopeMap map8 = image::make_slope_map(flat, image::NormalChannels::xyz, true);
   const image::SlopeMap map16 = image::make_slope_map(deep, image::NormalChannels::xyz, true);
   const std::vector<simd::Isa> isas = simd::available_isas();
