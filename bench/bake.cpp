@@ -88,8 +88,7 @@ void compare_results(const scene::Scene& scene, ChildProcess& cycles, const fs::
   compare(bake::bake(plain, {size, size, bake::Space::tangent}).map, io::read_image(file));
 }
 
-void race(const Request& request, const scene::Scene& scene, ChildProcess* cycles, int size, int threads,
-          Result& ours_of_size) {
+void race(const Request& request, const scene::Scene& scene, ChildProcess* cycles, int size, int threads) {
   const Heat heat{"bake",  fmt::format("{0}x{0}", size), "texel", double(size) * size,
                   threads, std::min(request.rounds, 5)};
   std::vector<Contestant> contestants{
@@ -107,7 +106,6 @@ void race(const Request& request, const scene::Scene& scene, ChildProcess* cycle
                              return Time{cpu, std::stod(seconds.substr(end))};
                            }});
   const std::vector<Result> results = run(heat, contestants);
-  ours_of_size = results[0];
   if (cycles == nullptr) return;
   const double factor = times_faster(results[1], results[0]);
   if (size == 2048 && threads == 1)
@@ -139,14 +137,8 @@ void race(const Request& request) {
     write_inputs(scene, folder);
     const std::unique_ptr<ChildProcess> cycles = start_cycles(folder);
     if (cycles) compare_results(scene, *cycles, folder, sizes[0]);
-    for (const int threads : request.threads) {
-      std::vector<Result> ours(sizes.size());
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        race(request, scene, cycles.get(), sizes[i], threads, ours[i]);
-      const Heat heat{.race = "bake", .title = "growth", .threads = threads};
-      report_ratio(heat, fmt::format("time of {0}x{0} over {1}x{1}", sizes[1], sizes[0]),
-                   times_faster(ours[1], ours[0], Clock::wall), {4.2, true});
-    }
+    for (const int threads : request.threads)
+      for (const int size : sizes) race(request, scene, cycles.get(), size, threads);
     time_files(scene, folder, sizes[0]);
   }
   fs::remove_all(folder);

@@ -68,7 +68,7 @@ double median(std::vector<double> values) {
   return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-std::vector<Result> run(const Heat& heat, const std::vector<Contestant>& contestants) {
+std::vector<Result> run_quietly(const Heat& heat, const std::vector<Contestant>& contestants) {
   std::vector<Result> results;
   for (const Contestant& c : contestants) {
     results.push_back({c.name, {}});
@@ -80,6 +80,11 @@ std::vector<Result> run(const Heat& heat, const std::vector<Contestant>& contest
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       results[i].rounds.push_back(contestants[i].run());
     }
+  return results;
+}
+
+std::vector<Result> run(const Heat& heat, const std::vector<Contestant>& contestants) {
+  std::vector<Result> results = run_quietly(heat, contestants);
   for (const Result& r : results) {
     std::vector<double> cpu;
     std::vector<double> wall;
@@ -140,6 +145,38 @@ void report_value(const Heat& heat, const std::string& what, double value, const
   line["unit"] = unit;
   add_target(line, target);
   print(line);
+}
+
+double report_growth(const Heat& heat, const std::string& name, const std::vector<int>& x,
+                     const std::vector<Result>& results) {
+  std::vector<double> ns;
+  for (const Result& r : results) {
+    std::vector<double> rounds;
+    for (const Time& t : r.rounds) rounds.push_back(1e9 * t.cpu / heat.items);
+    ns.push_back(median(rounds));
+  }
+  const double n = static_cast<double>(x.size());
+  double mean_x = 0;
+  double mean_y = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean_x += x[i] / n;
+    mean_y += ns[i] / n;
+  }
+  double xy = 0;
+  double xx = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mean_x) * (ns[i] - mean_y);
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+  }
+  const double slope = xx > 0 ? xy / xx : 0;
+  nlohmann::ordered_json line = line_of("growth", heat);
+  line["name"] = name;
+  line["unit"] = heat.unit;
+  line["x"] = x;
+  line["ns"] = ns;
+  line["one_more"] = slope;
+  print(line);
+  return slope;
 }
 
 void report_note(const std::string& race, const std::string& text) {

@@ -47,7 +47,9 @@ struct Result {
   std::vector<Time> rounds{};
 };
 
-/// Runs every contestant once unrecorded, then `rounds` times in turn, and prints a `time` line for each.
+/// Runs every contestant once unrecorded, then `rounds` times in turn.
+[[nodiscard]] std::vector<Result> run_quietly(const Heat& heat, const std::vector<Contestant>& contestants);
+/// The same, and prints a `time` line for each.
 std::vector<Result> run(const Heat& heat, const std::vector<Contestant>& contestants);
 
 [[nodiscard]] double median(std::vector<double> values);
@@ -70,6 +72,12 @@ void report_ratio(const Heat& heat, const std::string& what, double value, Targe
 void report_value(const Heat& heat, const std::string& what, double value, const std::string& unit);
 void report_value(const Heat& heat, const std::string& what, double value, const std::string& unit,
                   Target target);
+/// Prints a `growth` line: what the runs of a heat cost, one for each number in `x`.
+///
+/// heat  its title says what x counts; the numbers are nanoseconds of processor time an item
+/// Returns the cost of one more: the slope of the line closest to the figures.
+double report_growth(const Heat& heat, const std::string& name, const std::vector<int>& x,
+                     const std::vector<Result>& results);
 /// Prints a `note` line.
 void report_note(const std::string& race, const std::string& text);
 /// Prints an `absent` line: a peer that could not take part.
