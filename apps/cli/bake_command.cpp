@@ -17,7 +17,7 @@ struct BakeCommand {
   bake::Options job;
 };
 
-void warn_about(const bake::Baked& baked, Console& console) {
+void warn_about(const bake::Counts& baked, Console& console) {
   const auto warn = [&](std::int64_t count, const char* what) {
     if (count > 0) console.warn(fmt::format("{} of {} covered texels {}", count, baked.covered, what));
   };
@@ -42,9 +42,11 @@ void run(BakeCommand& command) {
   check_output(output, depth);
   Console console("baking", command.common.quiet);
   on_threads(command.common.threads, [&] {
-    const scene::Scene scene = open_scene(command.common);
-    const bake::Baked baked = bake::bake(scene, command.job, console.report());
-    write_unless_interrupted(output, baked.map, depth);
+    const scene::Scene scene = open_scene(command.common, console.report());
+    OutputFile file(output, {size.width, size.height, 3}, depth, command.common.compression);
+    const bake::Counts baked = bake::bake_bands(
+        scene, command.job, [&](const image::Image& band) { file.write(band); }, console.report());
+    file.commit();
     if (command.common.json) {
       console.say_json({{"output", output.string()},
                         {"width", size.width},

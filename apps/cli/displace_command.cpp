@@ -32,13 +32,13 @@ stack::Displace demo_displacement() {
   return displace;
 }
 
-scene::Scene scene_of(const DisplaceCommand& command) {
+scene::Scene scene_of(const DisplaceCommand& command, const Report& report) {
   if (command.scene.empty()) {
     scene::Scene demo = scene::demo_scene();
     demo.displace = demo_displacement();
     return demo;
   }
-  scene::Scene scene = scene::load_scene(command.scene);
+  scene::Scene scene = scene::load_scene(command.scene, report.at_the_start());
   if (scene.displace) return scene;
   const std::string block = R"("displace": { "function": "fractal_sum", "frequency": 2, "height": 0.05 })";
   if (io::lower_extension(command.scene) == ".json")
@@ -68,7 +68,7 @@ void run(const DisplaceCommand& command) {
   }
   Console console("displacing", command.quiet);
   on_threads(command.threads, [&] {
-    const scene::Scene scene = scene_of(command);
+    const scene::Scene scene = scene_of(command, console.report());
     stop_if_interrupted();
     const std::filesystem::path output = command.output;
     displace::DisplacedScene displaced = *displace::displaced(scene, console.report());

@@ -20,6 +20,7 @@ struct GalleryCommand {
   std::string size = "512";
   std::string only;
   std::string assets;
+  io::Compression compression = io::Compression::fast;
   int threads = 0;
   bool quiet = false;
   bool json = false;
@@ -38,7 +39,8 @@ std::vector<gallery::Figure> chosen(const std::vector<gallery::Figure>& all, con
 
 void run(const GalleryCommand& command) {
   const Size size = parse_size(command.size);
-  const gallery::Options job{.width = size.width, .height = size.height};
+  const gallery::Options job{.width = size.width, .height = size.height, .compression = command.compression};
+  check_memory(size);
   const std::filesystem::path folder = command.folder;
   {
     const Unbroken probe;
@@ -102,6 +104,7 @@ void add_gallery_command(CLI::App& program) {
   verb.add_option("--size", command->size, "side of each picture in pixels, or WIDTHxHEIGHT")
       ->capture_default_str()
       ->type_name("N");
+  add_compress_option(verb, command->compression);
   add_job_options(verb, command->threads, command->quiet, command->json);
   verb.callback([command] { run(*command); });
 }

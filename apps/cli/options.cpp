@@ -1,11 +1,15 @@
 #include "options.hpp"
 
+#include "diagnostic/error.hpp"
 #include "io/extension.hpp"
+#include "resources.hpp"
 
-#include "interrupt.hpp"
-#include "io/image_file.hpp"
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <map>
 
 namespace surfgrad::cli {
 namespace {
@@ -13,19 +17,49 @@ namespace {
 // A square of this side has 2^28 pixels, the most that images read and pictures rendered may have.
 constexpr int largest_side = 16384;
 
-bool parse_side(std::string_view text, int& side) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-  return error == std::errc() && end == text.data() + text.size() && side >= 1 && side <= largest_side;
+// The picture as three floats, and what is seen there.
+constexpr std::uint64_t bytes_a_pixel = 16;
+
+/// A whole number from 1 to `largest`, in digits alone.
+bool parse_count(std::string_view text, int largest, int& count) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  return error == std::errc() && end == text.data() + text.size() && count >= 1 && count <= largest;
+}
+
+CLI::Validator number_of_threads() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const int most = usable_cores();
+        int threads = 0;
+        if (parse_count(text, most, threads)) return std::string();
+        return fmt::format("\"{}\" is not a number of threads that this process may use; {}, or leave it out "
+                           "to use all",
+                           text, most == 1 ? "use 1" : fmt::format("use 1 to {}", most));
+      },
+      "");
+}
+
+std::string gibibytes(std::uint64_t bytes) {
+  return fmt::format("{:.1f} GiB", static_cast<double>(bytes) / (1 << 30));
 }
 
 } // namespace
 
 void add_job_options(CLI::App& verb, int& threads, bool& quiet, bool& json) {
-  verb.add_option("--threads", threads, "threads to use; 0 means all")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+  verb.add_option("--threads", threads, "threads to use, no more than there are cores (default: all)")
+      ->check(number_of_threads())
+      ->type_name("N");
   verb.add_flag("-q,--quiet", quiet, "no progress bar, warnings or summary (but --json)");
   verb.add_flag("--json", json, "summary as one line of JSON, even with --quiet");
+}
+
+void add_compress_option(CLI::App& verb, io::Compression& compression) {
+  const std::map<std::string, io::Compression> names{{"fast", io::Compression::fast},
+                                                     {"small", io::Compression::small}};
+  verb.add_option("--compress", compression, "fast (default), or small: slower to write")
+      ->transform(CLI::CheckedTransformer(names).description(""))
+      ->type_name("NAME")
+      ->option_text("NAME");
 }
 
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits) {
@@ -43,6 +77,7 @@ void add_common_options(CLI::App& verb, CommonOptions& options, const std::strin
                   "8, 16, half or float (default: " + integer_bits + " for PNG and TIFF, float for EXR)")
       ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
       ->type_name("BITS");
+  add_compress_option(verb, options.compression);
   add_job_options(verb, options.threads, options.quiet, options.json);
 }
 
@@ -50,8 +85,8 @@ Size parse_size(const std::string& text) {
   const std::size_t x = text.find('x');
   Size size{};
   const bool square = x == std::string::npos;
-  if (parse_side(text.substr(0, x), size.width) &&
-      (square || parse_side(std::string_view(text).substr(x + 1), size.height))) {
+  if (parse_count(text.substr(0, x), largest_side, size.width) &&
+      (square || parse_count(std::string_view(text).substr(x + 1), largest_side, size.height))) {
     if (square) size.height = size.width;
     return size;
   }
@@ -60,17 +95,42 @@ Size parse_size(const std::string& text) {
                                            std::to_string(largest_side));
 }
 
-scene::Scene open_scene(const CommonOptions& options) {
-  scene::Scene scene = options.scene.empty() ? scene::demo_scene() : scene::load_scene(options.scene);
+void check_memory(const Size& size) {
+  const auto pixels = static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+  const std::uint64_t most = usable_memory();
+  if (pixels * bytes_a_pixel <= most) return;
+  const double scale = std::sqrt(static_cast<double>(most / bytes_a_pixel) / static_cast<double>(pixels));
+  throw MachineError(fmt::format(
+      "--size {}x{}: the picture alone takes {} of memory, but there are {}; try {}x{}", size.width,
+      size.height, gibibytes(pixels * bytes_a_pixel), gibibytes(most),
+      std::max(1, static_cast<int>(scale * size.width)), std::max(1, static_cast<int>(scale * size.height))));
+}
+
+scene::Scene open_scene(const CommonOptions& options, const Report& report) {
+  scene::Scene scene =
+      options.scene.empty() ? scene::demo_scene() : scene::load_scene(options.scene, report.at_the_start());
   stop_if_interrupted();
   return scene;
 }
 
-void write_unless_interrupted(const std::filesystem::path& output, const image::Image& image,
-                              image::Depth depth) {
-  const Unbroken whole_file;
+OutputFile::OutputFile(std::filesystem::path output, const io::ImageShape& shape, image::Depth depth,
+                       io::Compression compression)
+    : output_(std::move(output)), shape_(shape), depth_(depth), compression_(compression) {}
+
+void OutputFile::write(const image::Image& band) {
   stop_if_interrupted();
-  io::write_image(output, image, depth);
+  if (!writer_) {
+    no_temporary_left_.emplace();
+    writer_.emplace(output_, shape_, depth_, compression_);
+  }
+  writer_->write_rows(band);
+}
+
+void OutputFile::commit() {
+  stop_if_interrupted();
+  writer_->commit();
+  writer_.reset();
+  no_temporary_left_.reset();
 }
 
 void check_output(const std::filesystem::path& output, image::Depth depth) {

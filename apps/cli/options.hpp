@@ -1,11 +1,15 @@
 #pragma once
 
+#include "diagnostic/report.hpp"
 #include "image/image.hpp"
+#include "interrupt.hpp"
+#include "io/image_writer.hpp"
 #include "scene/scene.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace surfgrad::cli {
@@ -16,13 +20,18 @@ struct CommonOptions {
   std::string output;
   std::string size = "1024";
   std::string depth; ///< "", "8", "16", "half" or "float"
-  int threads = 0;   ///< 0: as many as the machine has
+  io::Compression compression = io::Compression::fast;
+  int threads = 0; ///< 0: not given, as many as this process may use
   bool quiet = false;
   bool json = false;
 };
 
-/// What every verb takes: threads (0: as many as the machine has), and how much it says.
+/// What every verb takes: threads, from 1 to as many as this process may use (0 stands for the option
+/// left out: all of them), and how much it says.
 void add_job_options(CLI::App& verb, int& threads, bool& quiet, bool& json);
+
+/// What the verbs that write images take.
+void add_compress_option(CLI::App& verb, io::Compression& compression);
 
 /// integer_bits is what the verb writes into PNG and TIFF unless told otherwise.
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits);
@@ -34,17 +43,37 @@ struct Size {
 /// "1024" or "1920x1080". Throws CLI::ValidationError (exit status 2) for anything else.
 [[nodiscard]] Size parse_size(const std::string& text);
 
-[[nodiscard]] scene::Scene open_scene(const CommonOptions& options);
+/// Throws MachineError, with a size that fits, where a picture of this one cannot fit in memory.
+void check_memory(const Size& size);
+
+/// Throws Cancelled after an interrupt.
+[[nodiscard]] scene::Scene open_scene(const CommonOptions& options, const Report& report);
 
 /// Precision to write: what the user asked for, else the best the format is commonly read in.
 /// depth is "", "8", "16", "half" or "float"; integer_default serves PNG and TIFF.
 [[nodiscard]] image::Depth depth_for(const std::filesystem::path& output, const std::string& depth,
                                      image::Depth integer_default);
 
-/// Encodes and writes the whole image or nothing. Throws Cancelled where an interrupt came before the
-/// writing, else as io::write_image does. The extension and depth have passed io::check_image_output.
-void write_unless_interrupted(const std::filesystem::path& output, const image::Image& image,
-                              image::Depth depth);
+/// An image that is written while it is made. It appears whole or not at all, also after an interrupt.
+class OutputFile {
+ public:
+  /// As for io::ImageWriter; the extension and depth have passed io::check_image_output. Nothing is opened
+  /// before the first band.
+  OutputFile(std::filesystem::path output, const io::ImageShape& shape, image::Depth depth,
+             io::Compression compression);
+
+  /// The next rows, from the top downwards. Throws Cancelled after an interrupt.
+  void write(const image::Image& band);
+  void commit();
+
+ private:
+  std::filesystem::path output_;
+  io::ImageShape shape_;
+  image::Depth depth_;
+  io::Compression compression_;
+  std::optional<Unbroken> no_temporary_left_; ///< outlives the writer
+  std::optional<io::ImageWriter> writer_;
+};
 
 /// io::check_image_output, with nothing left behind by an interrupt.
 void check_output(const std::filesystem::path& output, image::Depth depth);
@@ -52,21 +81,23 @@ void check_output(const std::filesystem::path& output, image::Depth depth);
 /// Refuses the empty text that an unset shell variable leaves.
 [[nodiscard]] CLI::Validator not_empty();
 
-/// Runs work on the number of threads asked for.
+/// Runs work on the number of threads asked for; 0 is all that this process may use.
 template <class Work>
 void on_threads(int threads, const Work& work);
 
 } // namespace surfgrad::cli
 
+#include "resources.hpp"
+#include "simd/isa.hpp"
+
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 
 namespace surfgrad::cli {
 
 template <class Work>
 void on_threads(int threads, const Work& work) {
-  const auto limit = threads > 0 ? static_cast<std::size_t>(threads)
-                                 : static_cast<std::size_t>(tbb::info::default_concurrency());
+  static_cast<void>(simd::current_isa()); // complains before the work about one that is not there
+  const auto limit = static_cast<std::size_t>(threads > 0 ? threads : usable_cores());
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
   work();
 }

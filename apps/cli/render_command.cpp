@@ -36,11 +36,10 @@ void run(RenderCommand& command) {
   command.job.height = size.height;
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm8);
-  render::check_options(command.job);
   check_output(output, depth);
   Console console("rendering", command.common.quiet);
   on_threads(command.common.threads, [&] {
-    scene::Scene scene = open_scene(command.common);
+    scene::Scene scene = open_scene(command.common, console.report());
     if (command.view) {
       scene.camera.yaw_deg = command.view->first;
       scene.camera.pitch_deg = command.view->second;
@@ -49,10 +48,14 @@ void run(RenderCommand& command) {
     }
     if (!command.environment.empty())
       scene.environment = std::make_shared<image::Image>(io::read_image(command.environment));
-    const render::Picture picture = render::render(scene, command.job, console.report());
     const bool raw = depth == image::Depth::half || depth == image::Depth::float32;
-    write_unless_interrupted(
-        output, raw ? picture.image : render::encoded_for_display(picture, command.job.aov), depth);
+    const render::Aov aov = command.job.aov;
+    OutputFile file(output, {size.width, size.height, 3}, depth, command.common.compression);
+    const render::Counts picture = render::render_bands(
+        scene, command.job,
+        [&](const image::Image& band) { file.write(raw ? band : render::encoded_for_display(band, aov)); },
+        console.report());
+    file.commit();
     if (command.common.json) {
       console.say_json({{"output", output.string()},
                         {"width", size.width},

@@ -1,11 +1,15 @@
 #include "bake/bake.hpp"
 
-#include "bake/tangent_space.hpp"
+#include "bake/encode.hpp"
 #include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
-#include "engine/rows.hpp"
-#include "raster/visibility.hpp"
+#include "simd/lane.hpp"
 #include "stage/stage.hpp"
+#include "stage/tile_composer.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <mutex>
@@ -25,74 +29,128 @@ std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std
   return count;
 }
 
-/// Of one row: rows run in parallel and must not share a counter for every texel.
-struct Counts {
-  std::int64_t covered = 0, singular = 0, clamped = 0, degenerate = 0;
-};
+/// Fits the first caches with all that is kept of a pixel.
+constexpr int tile_side = 32;
 
-/// Composed normal of the texel (x, y) in the space asked for.
-vec3<double> texel_normal(const stage::Stage& stage, const scene::Scene& scene, std::size_t slot,
-                          const raster::Visible& what, const Options& options, int x, int y, Counts& counts) {
-  const raster::Surface& surface = stage.surfaces()[what.surface];
-  const raster::TrianglePlanes planes =
-      raster::uv_planes(surface, slot, what.triangle, options.width, options.height);
-  raster::Fragment<double> fragment = raster::make_fragment(surface, what.triangle, planes, x + 0.5, y + 0.5);
-  fragment.front_facing = true; // winding in a texture says mirrored, not turned away
-  const engine::Composition<double> c = stage.compose(what, fragment);
-  ++counts.covered;
-  counts.degenerate += c.degenerate;
-  if (options.space == Space::world) return c.normal;
-  if (options.space == Space::object) {
-    // The transpose of M takes normals back: it is the inverse of the inverse transpose.
-    const mat3<double> linear = raster::linear_part(scene.objects[what.surface].world_from_object);
-    const vec3<double> n = normalize_or_zero(transpose(linear) * c.normal);
-    if (max_abs(n) > 0 || max_abs(c.normal) == 0) return n;
-    ++counts.singular;
-    return {0, 0, 1};
+/// Bakes rows of tiles.
+class Bands {
+ public:
+  Bands(const stage::Stage& stage, const scene::Scene& scene, const Options& options)
+      : scene_(scene), options_(options), slot_(stage.slot_of(0)),
+        projection_(raster::Projection::texture(slot_, options.width, options.height)),
+        composer_(stage, projection_, options.width, options.height, tile_side, tile_side,
+                  {.vertex_frame = options.space == Space::tangent, .slot = slot_}) {}
+
+  [[nodiscard]] int count() const { return composer_.grid().rows(); }
+  [[nodiscard]] image::Image make(int row) {
+    const raster::Tile first = composer_.grid().tile(0, row);
+    image::Image band = image::make_image(options_.width, first.height, 3, image::Depth::unorm16);
+    Counts counts;
+    std::mutex adding;
+    tbb::parallel_for(tbb::blocked_range<int>(0, composer_.grid().columns(), 8),
+                      [&](const tbb::blocked_range<int>& columns) {
+                        Counts own;
+                        for (int column = columns.begin(); column < columns.end(); ++column)
+                          encode(composer_.compose(column, row), band, own);
+                        const std::lock_guard<std::mutex> lock(adding);
+                        add(own, counts);
+                      });
+    const std::lock_guard<std::mutex> lock(adding_);
+    add(counts, counts_);
+    return band;
   }
-  const raster::UvFragment<double>& uv = fragment.uvs[slot];
-  // What decodes the map interpolates the same normals: where they cancel it has no frame.
-  const vec3<double> normal = fragment.normal_is_absent ? vec3<double>{0, 0, 0} : fragment.normal;
-  const TangentNormal t = in_vertex_frame(normal, uv.tangent, uv.sign, c.normal);
-  counts.singular += t.singular;
-  counts.clamped += t.clamped;
-  return t.normal;
-}
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+ private:
+  /// Codes of a tile's pixels. One a thread.
+  struct Codes {
+    std::vector<float> values = std::vector<float>(5 * length);
+    static constexpr std::size_t length = tile_side * tile_side + most_lanes;
+    float* array(std::size_t i) { return values.data() + i * length; }
+  };
+
+  static void add(const Counts& some, Counts& to) {
+    to.covered += some.covered;
+    to.overlapping += some.overlapping;
+    to.singular += some.singular;
+    to.clamped += some.clamped;
+    to.degenerate += some.degenerate;
+  }
+
+  void encode(const stage::ComposedTile& composed, image::Image& band, Counts& counts) {
+    Codes& codes = codes_.local();
+    EncodeWork work{.space = options_.space,
+                    .composed = &composed.results,
+                    .code = {codes.array(0), codes.array(1), codes.array(2)},
+                    .singular = codes.array(3),
+                    .clamped = codes.array(4)};
+    for (const stage::ComposedTile::Run& run : composed.runs) {
+      work.linear = raster::linear_part(scene_.objects[run.surface].world_from_object);
+      work.first = run.first;
+      work.end = run.end;
+      encode_pixels(work);
+    }
+    const raster::Tile& tile = composed.tile;
+    if (composed.count < tile.width * tile.height)
+      for (int y = 0; y < tile.height; ++y)
+        for (int x = 0; x < tile.width; ++x) put(band, tile.x + x, y, 0.5f, 0.5f, 1.0f);
+    for (int i = 0; i < composed.count; ++i) {
+      const int pixel = composed.pixel[i];
+      put(band, tile.x + pixel % tile.width, pixel / tile.width, work.code.x[i], work.code.y[i],
+          work.code.z[i]);
+    }
+    const auto set = [&](const float* flags) {
+      float sum = 0; // whole numbers within a tile
+      for (int i = 0; i < composed.count; ++i) sum += flags[i];
+      return static_cast<std::int64_t>(sum);
+    };
+    counts.covered += composed.count;
+    counts.overlapping += composed.overlapping;
+    counts.singular += set(work.singular);
+    counts.clamped += set(work.clamped);
+    counts.degenerate += set(composed.results.degenerate);
+  }
+
+  static void put(image::Image& band, int x, int y, float r, float g, float b) {
+    float* texel = &band.texels[band.index(x, y)];
+    texel[0] = r;
+    texel[1] = g;
+    texel[2] = b;
+  }
+
+  const scene::Scene& scene_;
+  const Options& options_;
+  std::size_t slot_;
+  raster::Projection projection_;
+  stage::TileComposer composer_;
+  tbb::enumerable_thread_specific<Codes> codes_;
+  std::mutex adding_;
+  Counts counts_;
+};
 
 } // namespace
 
-Baked bake(const scene::Scene& asked, const Options& options, const Report& report) {
+Counts bake_bands(const scene::Scene& asked, const Options& options, const stage::BandSink& take,
+                  const Report& report) {
   const auto displaced = displace::displaced(asked, report.at_the_start());
   const scene::Scene& scene = displaced ? displaced->scene : asked;
   const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report);
-  const std::size_t slot = stage.slot_of(0);
-  Baked baked;
-  baked.outside = triangles_outside(stage.surfaces(), slot);
-  const raster::VisibilityBuffer layout =
-      raster::lay_out_in_uv(stage.surfaces(), slot, options.width, options.height, &baked.overlapping);
-  baked.map = image::make_image(options.width, options.height, 3, image::Depth::unorm16);
-  std::mutex adding;
-  engine::for_each_row(options.height, report, [&](int y) {
-    Counts counts;
-    for (int x = 0; x < options.width; ++x) {
-      const raster::Visible& what = layout.at(x, y);
-      const vec3<double> n = what.surface == raster::Visible::none
-                                 ? vec3<double>{0, 0, 1}
-                                 : texel_normal(stage, scene, slot, what, options, x, y, counts);
-      baked.map.at(x, y, 0) = static_cast<float>(0.5 * n.x + 0.5);
-      baked.map.at(x, y, 1) = static_cast<float>(0.5 * n.y + 0.5);
-      baked.map.at(x, y, 2) = static_cast<float>(0.5 * n.z + 0.5);
-    }
-    const std::lock_guard<std::mutex> lock(adding);
-    baked.covered += counts.covered;
-    baked.singular += counts.singular;
-    baked.clamped += counts.clamped;
-    baked.degenerate += counts.degenerate;
-  });
-  if (baked.covered == 0)
+  Bands bands(stage, scene, options);
+  stage::for_each_band(
+      bands.count(), report, [&](int row) { return bands.make(row); }, take);
+  Counts counts = bands.counts();
+  counts.outside = triangles_outside(stage.surfaces(), stage.slot_of(0));
+  if (counts.covered == 0)
     throw InputError({.file = scene.source,
                       .problem = "no triangle covers a texel of the unit square of UV set 0",
                       .remedy = "check the mesh's texture coordinates, or bake at a larger size"});
+  return counts;
+}
+
+Baked bake(const scene::Scene& scene, const Options& options, const Report& report) {
+  Baked baked;
+  baked.map = image::make_image(options.width, options.height, 3, image::Depth::unorm16);
+  static_cast<Counts&>(baked) = bake_bands(scene, options, stage::into(baked.map), report);
   return baked;
 }
 

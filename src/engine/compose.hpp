@@ -4,6 +4,9 @@
 
 #include <surfgrad/resolve.hpp>
 
+#include <utility>
+#include <variant>
+
 namespace surfgrad::engine {
 
 /// What the layers of a material make of one fragment.
@@ -26,25 +29,49 @@ void apply(const Layer& layer, Point<T>& point, vec3<T>& sum, mask_t<T>& degener
                 surface_gradient(layer, point, degenerate));
 }
 
-/// Runs a program on one fragment (or one pack of them).
+/// Calls f(layer) with the layer's own type. Unlike std::visit it leaves nothing behind to throw, which
+/// sources compiled for one instruction set must not share with others.
+template <class Layer, class Function>
+void with_kind(const Layer& layer, const Function& f) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static_cast<void>(((layer.index() == I && (f(*std::get_if<I>(&layer)), true)) || ...));
+  }
+  (std::make_index_sequence<std::variant_size_v<Layer>>());
+}
+
+/// The first pass of a point: its frame from its fragment.
 ///
 /// back_faces  how a fragment that shows its back is treated
 template <LaneScalar T>
-[[nodiscard]] Composition<T> compose(const Program& program, const raster::Fragment<T>& fragment,
-                                     BackFaces back_faces, const Placement& placement) {
+[[nodiscard]] Frame<T> first_frame(const raster::Fragment<T>& fragment, BackFaces back_faces) {
+  return make_frame(fragment.normal, fragment.dp_dx, fragment.dp_dy, fragment.front_facing, back_faces);
+}
+
+/// Runs a program on a point in its first pass and gives the composed normal.
+///
+/// degenerate  (out) where a normal or a frame that a layer needed did not exist
+template <LaneScalar T>
+[[nodiscard]] vec3<T> run(const Program& program, Point<T>& point, mask_t<T>& degenerate) {
   const T zero = T(value_t<T>(0));
-  Point<T> point{
-      fragment,
-      make_frame(fragment.normal, fragment.dp_dx, fragment.dp_dy, fragment.front_facing, back_faces), true,
-      T(value_t<T>(1)), placement};
-  const vec3<T> base = point.frame.normal;
-  mask_t<T> degenerate = fragment.normal_is_absent | mask_t<T>(max_abs(base) == zero);
+  degenerate = point.fragment.normal_is_absent | mask_t<T>(max_abs(point.frame.normal) == zero);
   vec3<T> sum{zero, zero, zero};
   for (const auto& layer : program.layers)
-    std::visit([&](const auto& kind) { apply(kind, point, sum, degenerate); }, layer);
-  const vec3<T> normal = resolve_normal(point.frame, sum);
-  return {base, normal, point.frame.resolve_sign * from_perturbed_normal(base, normal), point.sunlight,
-          degenerate};
+    with_kind(layer, [&](const auto& kind) { apply(kind, point, sum, degenerate); });
+  return resolve_normal(point.frame, sum);
+}
+
+/// Runs a program on one fragment (or one pack of them).
+template <LaneScalar T>
+[[nodiscard]] Composition<T> compose(const Program& program, const raster::Fragment<T>& fragment,
+                                     BackFaces back_faces, const Placement& placement) {
+  Point<T> point{fragment, first_frame(fragment, back_faces), true, T(value_t<T>(1)), placement};
+  const vec3<T> base = point.frame.normal;
+  Composition<T> c{};
+  c.base_normal = base;
+  c.normal = run(program, point, c.degenerate);
+  c.surfgrad = point.frame.resolve_sign * from_perturbed_normal(base, c.normal);
+  c.sunlight = point.sunlight;
+  return c;
 }
 
 } // namespace surfgrad::engine

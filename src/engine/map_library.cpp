@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <string>
 
 namespace surfgrad::engine {
@@ -34,9 +35,12 @@ std::string number_of(Enum word) {
 
 template <class Make>
 std::shared_ptr<const image::Map> MapLibrary::made_once(const std::string& kind, const stack::FileName& file,
-                                                        const Make& make) {
+                                                        int components, const Make& make) {
   auto& map = maps_[kind + " " + file.path.string()];
-  if (!map) map = std::make_shared<const image::Map>(make(find_(file.path)));
+  if (map) return map;
+  const image::Image& image = find_(file.path);
+  require_size(image, image::map_most_texels, components, file);
+  map = std::make_shared<const image::Map>(make(image));
   return map;
 }
 
@@ -44,6 +48,21 @@ std::string MapLibrary::named_by(const stack::FileName& file) const {
   if (file.line == 0) return file.key;
   return "(named by " + document_.filename().string() + ":" + std::to_string(file.line) + ": " + file.key +
          ")";
+}
+
+void MapLibrary::require_size(const image::Image& image, int most_texels, int components,
+                              const stack::FileName& file) const {
+  const auto refuse = [&](const std::string& remedy) {
+    throw InputError({.file = file.path,
+                      .place = named_by(file),
+                      .problem = "is " + std::to_string(image.width) + "x" + std::to_string(image.height),
+                      .remedy = remedy});
+  };
+  if (std::max(image.width, image.height) > most_texels)
+    refuse("expected at most " + std::to_string(most_texels) + " texels a side");
+  constexpr std::int64_t most_words = std::numeric_limits<std::int32_t>::max();
+  if (image::words_of_map(image.width, image.height, components) > most_words)
+    refuse("with its mip levels that is more than " + std::to_string(most_words) + " numbers");
 }
 
 void MapLibrary::require_channels(const image::Image& image, int least, const stack::FileName& file,
@@ -70,7 +89,7 @@ void MapLibrary::require_channel(const image::Image& image, stack::MaskChannel c
 
 std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::FileName& file, stack::Channels channels,
                                                      stack::Green green) {
-  return made_once("slopes " + number_of(channels) + word_of(green), file, [&](const image::Image& image) {
+  return made_once("slopes " + number_of(channels) + word_of(green), file, 2, [&](const image::Image& image) {
     require_channels(image, channels == stack::Channels::xyz ? 3 : 2, file, "a normal map");
     image::SlopeMap slopes = image::make_slope_map(image, channels_of(channels), green == stack::Green::up);
     if (slopes.inward_texels > 0)
@@ -82,7 +101,7 @@ std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::FileName& file
 std::shared_ptr<const image::Map>
 MapLibrary::derivatives(const stack::FileName& file, const stack::DerivativeCode& code, stack::Green green) {
   const auto range_bits = std::to_string(std::bit_cast<std::uint64_t>(code.range));
-  return made_once("derivatives " + range_bits + number_of(code.neutral) + word_of(green), file,
+  return made_once("derivatives " + range_bits + number_of(code.neutral) + word_of(green), file, 2,
                    [&](const image::Image& image) {
                      require_channels(image, 2, file, "a derivative map");
                      return image::make_derivative_map(image, code.range, green == stack::Green::up,
@@ -94,7 +113,7 @@ MapLibrary::derivatives(const stack::FileName& file, const stack::DerivativeCode
 
 std::shared_ptr<const image::Map> MapLibrary::heights(const stack::FileName& file,
                                                       stack::MaskChannel channel) {
-  return made_once("heights " + number_of(channel), file, [&](const image::Image& image) {
+  return made_once("heights " + number_of(channel), file, 1, [&](const image::Image& image) {
     require_channel(image, channel, file);
     return image::make_height_map(image, static_cast<int>(channel));
   });
@@ -102,7 +121,7 @@ std::shared_ptr<const image::Map> MapLibrary::heights(const stack::FileName& fil
 
 std::shared_ptr<const image::Map> MapLibrary::height_slopes(const stack::FileName& file,
                                                             stack::MaskChannel channel, image::Wraps wraps) {
-  return made_once("height slopes " + number_of(channel) + number_of(wraps.s) + number_of(wraps.t), file,
+  return made_once("height slopes " + number_of(channel) + number_of(wraps.s) + number_of(wraps.t), file, 2,
                    [&](const image::Image& image) {
                      require_channel(image, channel, file);
                      return image::make_height_slopes(image, static_cast<int>(channel), wraps);
@@ -110,7 +129,7 @@ std::shared_ptr<const image::Map> MapLibrary::height_slopes(const stack::FileNam
 }
 
 std::shared_ptr<const image::Map> MapLibrary::directions(const stack::FileName& file, stack::Green green) {
-  return made_once("directions " + word_of(green), file, [&](const image::Image& image) {
+  return made_once("directions " + word_of(green), file, 3, [&](const image::Image& image) {
     require_channels(image, 3, file, "an object-space normal map");
     return image::make_direction_map(image, green == stack::Green::up);
   });
@@ -135,7 +154,7 @@ std::shared_ptr<const image::CubeMap> MapLibrary::cube(const std::vector<stack::
 
 std::shared_ptr<const image::Map> MapLibrary::weights(const stack::FileName& file,
                                                       stack::MaskChannel channel) {
-  return made_once("weights " + number_of(channel), file, [&](const image::Image& image) {
+  return made_once("weights " + number_of(channel), file, 1, [&](const image::Image& image) {
     require_channel(image, channel, file);
     return image::make_channel_map(image, static_cast<int>(channel));
   });
@@ -147,12 +166,7 @@ std::shared_ptr<const image::TwoSidedField> MapLibrary::relief(const stack::File
   if (relief) return relief;
   const image::Image& image = find_(file.path);
   require_channel(image, channel, file);
-  if (std::max(image.width, image.height) > image::height_field_most_texels)
-    throw InputError({.file = file.path,
-                      .place = named_by(file),
-                      .problem = "is " + std::to_string(image.width) + "x" + std::to_string(image.height),
-                      .remedy = "parallax takes at most " + std::to_string(image::height_field_most_texels) +
-                                " texels a side"});
+  require_size(image, image::height_field_most_texels, 1, file);
   relief = std::make_shared<const image::TwoSidedField>(
       image::make_two_sided_field(image::make_channel_map(image, static_cast<int>(channel))));
   return relief;

@@ -57,12 +57,14 @@ class MapLibrary {
   [[nodiscard]] const std::vector<InwardTexels>& inward_texels() const { return inward_; }
 
  private:
-  /// The map of this name, made when it is first asked for.
+  /// The map of this name, made when it is first asked for, of at most so many components.
   template <class Make>
   std::shared_ptr<const image::Map> made_once(const std::string& kind, const stack::FileName& file,
-                                              const Make& make);
+                                              int components, const Make& make);
   /// Who named a file, for a message about it.
   [[nodiscard]] std::string named_by(const stack::FileName& file) const;
+  void require_size(const image::Image& image, int most_texels, int components,
+                    const stack::FileName& file) const;
   void require_channel(const image::Image& image, stack::MaskChannel channel,
                        const stack::FileName& file) const;
   void require_channels(const image::Image& image, int least, const stack::FileName& file,

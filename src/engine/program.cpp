@@ -29,6 +29,20 @@ void add_slot(const stack::Texture& use, bool tangents, std::vector<raster::UvSl
 
 } // namespace
 
+bool Program::reads_object_position() const {
+  return std::any_of(layers.begin(), layers.end(), [](const auto& layer) {
+    return std::holds_alternative<VolumeNoise>(layer) || std::holds_alternative<Planar>(layer) ||
+           std::holds_alternative<Triplanar>(layer);
+  });
+}
+
+bool Program::reads_normal_derivatives() const {
+  return std::any_of(layers.begin(), layers.end(), [](const auto& layer) {
+    const auto* parallax = std::get_if<Parallax>(&layer);
+    return parallax != nullptr && parallax->curvature;
+  });
+}
+
 void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raster::UvSlot>& slots) {
   for (const stack::Layer& layer : layers)
     for (const stack::TextureUse& use : stack::textures_of(layer))

@@ -23,6 +23,10 @@ struct Program {
   std::vector<std::variant<NormalMap, HeightMap, ObjectNormalMap, VolumeNoise, Planar, Triplanar, Decals,
                            Parallax, Resolve>>
       layers;
+
+  /// Parts of a fragment that only some kinds read.
+  [[nodiscard]] bool reads_object_position() const;
+  [[nodiscard]] bool reads_normal_derivatives() const;
 };
 
 /// Every texture coordinate that a list of layers reads, each once, tangents where a layer wants the

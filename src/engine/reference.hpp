@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/compose.hpp"
+#include "engine/tiles.hpp"
 
 namespace surfgrad::engine {
 
@@ -9,5 +10,8 @@ namespace surfgrad::engine {
 [[nodiscard]] Composition<double> compose_reference(const Program& program,
                                                     const raster::Fragment<double>& fragment,
                                                     BackFaces back_faces, const Placement& placement);
+
+/// The same for the pixels of a tile; results are rounded to float.
+void compose_tile_reference(const TileWork& work);
 
 } // namespace surfgrad::engine

@@ -80,7 +80,6 @@ Drawn draw(const std::vector<Figure>& figures, const Options& options, const Rep
   for (const Figure& figure : figures)
     for (const Panel& panel : figure.panels) jobs.emplace_back(&figure, &panel);
   const render::Options look{.width = options.width, .height = options.height, .samples = options.samples};
-  render::check_options(look);
 
   Drawn drawn;
   drawn.pictures.resize(jobs.size());
@@ -94,8 +93,9 @@ Drawn draw(const std::vector<Figure>& figures, const Options& options, const Rep
       const Report of_this{.progress = [&](double fraction) { return progress(i, fraction); }};
       const render::Picture picture = render::render(panel->scene(), look, of_this);
       degenerate += picture.degenerate;
-      drawn.pictures[i] = {picture_name(*figure, *panel),
-                           io::encode_image(picture.image, image::Depth::unorm8, io::ImageFormat::png)};
+      drawn.pictures[i] = {
+          picture_name(*figure, *panel),
+          io::encode_image(picture.image, image::Depth::unorm8, io::ImageFormat::png, options.compression)};
     });
   });
   drawn.degenerate = degenerate;

@@ -2,6 +2,7 @@
 
 #include "diagnostic/report.hpp"
 #include "gallery/figure.hpp"
+#include "io/image_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,7 @@ struct Options {
   int width = 512;
   int height = 512;
   int samples = 2; ///< along each side of a pixel
+  io::Compression compression = io::Compression::fast;
 };
 
 /// The figures of the page, in its order: the built-in ones, and with an assets folder its models.

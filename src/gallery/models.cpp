@@ -63,7 +63,7 @@ Figure model_figure(const fs::path& folder, const Report& report) {
   for (const fs::path& file : models_below(folder)) {
     std::shared_ptr<const scene::Scene> scene;
     try {
-      scene = std::make_shared<const scene::Scene>(scene::load_scene(file));
+      scene = std::make_shared<const scene::Scene>(scene::load_scene(file, report.at_the_start()));
     } catch (const InputError& error) {
       report.warn(std::string(error.what()) + " (left out of the gallery)");
       continue;

@@ -76,11 +76,12 @@ template <LaneScalar T>
 [[nodiscard]] BicubicSample<T> sample_bicubic(const Map& map, vec2<T> st, Wraps wraps, mask_t<T> active) {
   const detail::CubicTaps<T> x = detail::cubic_taps(st.x, map.width(), wraps.s);
   const detail::CubicTaps<T> y = detail::cubic_taps(st.y, map.height(), wraps.t);
-  const index_t<T> base = detail::index_constant<T>(0);
-  const bits_t<T> width = bits_t<T>(detail::index_constant<T>(map.width()));
+  const detail::Level<T> level = detail::level_of<T>(map, 0);
   const auto texel = [&](int i, int j) {
-    const index_t<T> row = index_t<T>(bits_t<T>(y.texel[j]) * width);
-    return detail::fetch<1, T>(map, base, index_t<T>(row + x.texel[i]), active)[0];
+    const bits_t<T> word = detail::word_of<1, T>(level, x.texel[i], y.texel[j]);
+    return map.format == TexelFormat::unorm16
+               ? detail::Texels<TexelFormat::unorm16, 1>::one<T>(map.texels(), word, active)[0]
+               : detail::Texels<TexelFormat::floats, 1>::one<T>(map.texels(), word, active)[0];
   };
   // Heights relative to one of them: a plateau far above zero keeps the precision of its relief.
   const T pivot = texel(1, 1);
@@ -90,8 +91,9 @@ template <LaneScalar T>
   const mat4<T> relief{row(0), row(1), row(2), row(3)};
   const vec2<T> fraction{x.fraction, y.fraction};
   const vec2<T> direction{x.direction, y.direction};
-  return {pivot + value_from_bicubic(relief, fraction),
-          direction * derivative_from_bicubic(relief, fraction)};
+  const T scale = constant<T>(map.scale);
+  return {scale * (pivot + value_from_bicubic(relief, fraction)),
+          scale * (direction * derivative_from_bicubic(relief, fraction))};
 }
 
 } // namespace surfgrad::image

@@ -71,10 +71,7 @@ struct Level {
   int size;
 
   [[nodiscard]] vec3<double> texel(int face, int x, int y) const {
-    const Map& map = faces[face];
-    const std::uint32_t first = map.level_table[3 * static_cast<std::size_t>(level) + 2];
-    const std::size_t index = first + 3 * (static_cast<std::size_t>(y) * size + x);
-    const auto component = [&](std::size_t c) { return std::bit_cast<float>(map.words[index + c]); };
+    const auto component = [&](int c) { return faces[face].value(level, x, y, c); };
     return {component(0), component(1), component(2)};
   }
 
@@ -121,28 +118,34 @@ vec3<double> cube_direction(int face, vec2<double> st) {
   }
 }
 
+CubeMap cube_of_faces(const std::array<Map, 6>& faces) {
+  CubeMap cube;
+  Map& map = cube.map;
+  map.components = 3;
+  map.level_count = faces[0].level_count;
+  for (int level = 0; level < map.level_count; ++level) {
+    const Level source{faces, level, faces[0].width(level)};
+    const int width = source.size + 2;
+    map.level_table.insert(map.level_table.end(),
+                           {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(6 * width),
+                            static_cast<std::uint32_t>(map.words.size())});
+    // The copies that end a map's rows and levels too, although no direction reads them.
+    for (int row = 0; row <= 6 * width; ++row)
+      for (int column = 0; column <= width; ++column) {
+        const int in_map = row % (6 * width);
+        const vec3<double> v = source.bordered(in_map / width, column % width - 1, in_map % width - 1);
+        for (const double c : {v.x, v.y, v.z})
+          map.words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(c)));
+      }
+  }
+  return cube;
+}
+
 std::variant<CubeMap, CubeFault> make_cube_map(const std::array<const Image*, 6>& faces) {
   if (const auto fault = fault_of(faces)) return *fault;
   std::array<Map, 6> maps;
   for (int f = 0; f < 6; ++f) maps[f] = make_direction_map(*faces[f], true);
-  CubeMap cube;
-  Map& map = cube.map;
-  map.components = 3;
-  map.level_count = maps[0].level_count;
-  for (int level = 0; level < map.level_count; ++level) {
-    const Level source{maps, level, maps[0].width(level)};
-    const auto width = static_cast<std::uint32_t>(source.size + 2);
-    map.level_table.insert(map.level_table.end(),
-                           {width, 6 * width, static_cast<std::uint32_t>(map.words.size())});
-    for (int f = 0; f < 6; ++f)
-      for (int y = -1; y <= source.size; ++y)
-        for (int x = -1; x <= source.size; ++x) {
-          const vec3<double> v = source.bordered(f, x, y);
-          for (const double c : {v.x, v.y, v.z})
-            map.words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(c)));
-        }
-  }
-  return cube;
+  return cube_of_faces(maps);
 }
 
 std::variant<CubeMap, CubeFault> make_cube_map(const Image& image) {

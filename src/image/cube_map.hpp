@@ -61,6 +61,10 @@ inline constexpr int max_cube_size = 8192;
 /// Fails for any other shape, and as for six images.
 [[nodiscard]] std::variant<CubeMap, CubeFault> make_cube_map(const Image& image);
 
+/// The cube map of six square maps in the order and orientation of CubeMap: three components, one size and
+/// one number of levels. They may hold anything, light for one; it is kept as it is.
+[[nodiscard]] CubeMap cube_of_faces(const std::array<Map, 6>& faces);
+
 /// The direction, not of unit length, at a point of a face: st runs from (-1, -1), lower left, to (1, 1).
 [[nodiscard]] vec3<double> cube_direction(int face, vec2<double> st);
 
@@ -94,28 +98,23 @@ template <LaneScalar T>
 template <LaneScalar T>
 [[nodiscard]] std::array<T, 3> sample_cube_level(const Map& map, CubePoint<T> at, index_t<T> level,
                                                  mask_t<T> active) {
-  const auto entry = [&](int k) {
-    const index_t<T> row = index_t<T>(level + level + level);
-    return index_t<T>(gather(map.levels(), index_t<T>(row + index_constant<T>(k)), active));
-  };
-  const index_t<T> width = entry(0);
-  const index_t<T> first_word = entry(2);
+  const Level<T> of = levels_of<T>(map, level, active);
   const T half = constant<T>(0.5);
   // Texel i of the face is texel i + 1 of its bordered image; the point lies half a texel or more inside.
-  const T size = T(width) - constant<T>(2);
+  const T size = of.width - constant<T>(2);
   const vec2<T> p{(at.st.x * half + half) * size + half, (at.st.y * half + half) * size + half};
   const vec2<T> low{floor(p.x), floor(p.y)};
   const vec2<T> fraction = p - low;
   const index_t<T> x = to_index(low.x);
   const index_t<T> y = to_index(low.y);
-  const auto texel = [&](int i, int j) {
-    const bits_t<T> row =
-        bits_t<T>(at.face) * bits_t<T>(width) + bits_t<T>(index_t<T>(y + index_constant<T>(j)));
-    return fetch<3, T>(map, first_word,
-                       index_t<T>(index_t<T>(row * bits_t<T>(width)) + x + index_constant<T>(i)), active);
-  };
-  return mix<3, T>(mix<3, T>(texel(0, 0), texel(1, 0), fraction.x),
-                   mix<3, T>(texel(0, 1), texel(1, 1), fraction.x), fraction.y);
+  const index_t<T> face_row = index_t<T>(bits_t<T>(at.face) * bits_t<T>(to_index(of.width)));
+  const bits_t<T> lower = word_of<3, T>(of, x, index_t<T>(face_row + y));
+  const bits_t<T> row = of.row_texels * bits_t<T>(index_constant<T>(3));
+  using Format = Texels<TexelFormat::floats, 3>;
+  const TexelPair<3, T> below = Format::pair<T>(map.texels(), lower, active);
+  const TexelPair<3, T> above = Format::pair<T>(map.texels(), lower + row, active);
+  return mix<3, T>(mix<3, T>(below[0], below[1], fraction.x), mix<3, T>(above[0], above[1], fraction.x),
+                   fraction.y);
 }
 
 } // namespace detail
@@ -140,10 +139,11 @@ template <LaneScalar T>
       active & (none.x == zero) & (none.y == zero) & (none.z == zero) & (zero < max_abs(direction));
   const vec3<T> somewhere{zero, zero, T(value_t<T>(1))};
   const detail::CubePoint<T> at = detail::cube_point(select<T>(valid, direction, somewhere));
-  const std::array<T, 3> value =
-      detail::between_levels<3, T>(cube.map.level_count, lod, valid, [&](index_t<T> level) {
-        return detail::sample_cube_level<T>(cube.map, at, level, valid);
-      });
+  const detail::LevelBlend<T> blend = detail::level_blend(cube.map.level_count, lod, valid);
+  const std::array<T, 3> value = detail::between_levels<3, T>(blend, [&](int k) {
+    const index_t<T> level = index_t<T>(blend.level + detail::index_constant<T>(k));
+    return detail::sample_cube_level<T>(cube.map, at, level, k == 0 ? valid : blend.between);
+  });
   return {value[0], value[1], value[2]};
 }
 

@@ -20,9 +20,8 @@ struct Grid {
 
 Grid texels_of(const Map& map, int level) {
   Grid grid{map.width(level), map.height(level), {}};
-  const auto count = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
-  const std::size_t first = map.level_table[3 * static_cast<std::size_t>(level) + 2];
-  for (std::size_t i = 0; i < count; ++i) grid.values.push_back(std::bit_cast<float>(map.words[first + i]));
+  for (int y = 0; y < grid.height; ++y)
+    for (int x = 0; x < grid.width; ++x) grid.values.push_back(static_cast<float>(map.value(level, x, y)));
   return grid;
 }
 
@@ -55,10 +54,21 @@ int last_order(int width, int height) {
   return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(width, height) - 1)));
 }
 
+/// The same map in floats: a ray reads it texel by texel.
+Map in_floats(Map map) {
+  if (map.format == TexelFormat::unorm16)
+    for (std::uint32_t& word : map.words)
+      word = std::bit_cast<std::uint32_t>(static_cast<float>(map.scale * (word & 0xffffu)));
+  map.format = TexelFormat::floats;
+  map.scale = 1;
+  return map;
+}
+
 } // namespace
 
 HeightField make_height_field(Map heights) {
   assert(heights.components == 1);
+  heights = in_floats(std::move(heights));
   assert(std::max(heights.width(), heights.height()) <= height_field_most_texels);
   HeightField field;
   field.row_words = 1 + last_order(heights.width(), heights.height());
@@ -81,6 +91,7 @@ HeightField make_height_field(Map heights) {
 }
 
 TwoSidedField make_two_sided_field(Map heights) {
+  heights = in_floats(std::move(heights));
   Map depths = heights;
   for (std::uint32_t& word : depths.words)
     word = std::bit_cast<std::uint32_t>(1.0f - std::bit_cast<float>(word));

@@ -19,9 +19,9 @@ namespace surfgrad::image {
 /// ray is below the surface, and a ray that comes from above stops before it is.
 ///
 /// memory  4 bytes a texel, 1.33 for the mip levels, 1.33 * 0.33 for the maxima: 7.1 bytes a texel of the
-///         image (a little more for sizes that are no powers of two)
+///         image (a little more for small maps, and for sizes that are no powers of two)
 struct HeightField {
-  Map map{}; ///< one component
+  Map map{}; ///< one component, in floats
   int row_words = 0;
   std::vector<std::uint32_t> maxima{}; ///< float bits, row 0 at the bottom
   /// Of each mip level row_words words: the last order, then the first word of orders 1, 2, ... in maxima.

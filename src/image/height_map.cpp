@@ -23,7 +23,9 @@ std::vector<float> heights(const Image& image, int channel) {
 } // namespace
 
 Map make_height_map(const Image& image, int channel) {
-  return with_pyramid(heights(image, channel), image.width, image.height, 1);
+  std::vector<float> values = heights(image, channel);
+  const TexelCode code = is_integer(image.depth) ? code_for_scalars(values) : TexelCode{};
+  return with_pyramid(std::move(values), image.width, image.height, 1, code);
 }
 
 Map make_height_slopes(const Image& image, int channel, Wraps wraps) {

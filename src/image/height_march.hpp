@@ -99,16 +99,12 @@ template <LaneScalar T>
                                    mask_t<T> active) {
   const T zero = T(value_t<T>(0));
   const T one = T(value_t<T>(1));
-  const auto entry = [&](int k) {
-    const index_t<T> row = index_t<T>(ray.level + ray.level + ray.level);
-    return bits_t<T>(gather(field.map.levels(), index_t<T>(row + index_constant<T>(k)), active));
-  };
-  const bits_t<T> width = entry(0);
-  const bits_t<T> first_word = entry(2);
+  const Level<T> level = levels_of<T>(field.map, ray.level, active);
+  const auto row = [&](T y) { return level.first_word + level.row_texels * bits_t<T>(to_index(y)); };
   const bits_t<T> left = bits_t<T>(to_index(texel_at(ray.x, cell.x)));
   const bits_t<T> right = bits_t<T>(to_index(texel_at(ray.x, cell.x + one)));
-  const bits_t<T> below = first_word + width * bits_t<T>(to_index(texel_at(ray.y, cell.y)));
-  const bits_t<T> above = first_word + width * bits_t<T>(to_index(texel_at(ray.y, cell.y + one)));
+  const bits_t<T> below = row(texel_at(ray.y, cell.y));
+  const bits_t<T> above = row(texel_at(ray.y, cell.y + one));
   const auto texel = [&](bits_t<T> word) {
     return float_from_bits<T>(gather(field.map.texels(), index_t<T>(word), active));
   };

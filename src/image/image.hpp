@@ -8,6 +8,10 @@ namespace surfgrad::image {
 /// Sample precision of the file an image came from, or should be written with.
 enum class Depth { unorm8, unorm16, half, float32 };
 
+[[nodiscard]] constexpr bool is_integer(Depth depth) {
+  return depth == Depth::unorm8 || depth == Depth::unorm16;
+}
+
 /// A picture as loaded: interleaved float channels, before it becomes slopes, masks or heights.
 ///
 /// Row 0 is the bottom row (texture origin lower left, t up); readers and writers flip at the edge.

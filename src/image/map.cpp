@@ -38,6 +38,11 @@ std::size_t texel_count(const Image& image) {
   return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
 }
 
+/// Of 8-bit files slopes need no more than 16 bits.
+TexelCode code_for(const Image& image, const std::vector<float>& slopes) {
+  return image.depth == Depth::unorm8 ? code_for_slopes(slopes) : TexelCode{};
+}
+
 } // namespace
 
 SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up) {
@@ -56,7 +61,8 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
     slopes[2 * i] = static_cast<float>(d.x);
     slopes[2 * i + 1] = static_cast<float>(green_up ? d.y : -d.y);
   }
-  result.map = with_pyramid(std::move(slopes), image.width, image.height, 2);
+  const TexelCode code = code_for(image, slopes);
+  result.map = with_pyramid(std::move(slopes), image.width, image.height, 2, code);
   return result;
 }
 
@@ -64,7 +70,7 @@ Map make_derivative_map(const Image& image, double range, bool green_up, Neutral
   const double most = image.depth == Depth::unorm8 ? 255 : 65535;
   const double half = neutral == NeutralCode::between ? most / 2 : (most - 1) / 2; // codes of `range`
   const auto slope = [&](double value) {
-    if (image.depth == Depth::half || image.depth == Depth::float32) return range * value;
+    if (!is_integer(image.depth)) return range * value;
     return range * std::max(-1.0, (value * most - (most - half)) / half);
   };
   std::vector<float> slopes;
@@ -77,7 +83,8 @@ Map make_derivative_map(const Image& image, double range, bool green_up, Neutral
     slopes.push_back(static_cast<float>(d.x));
     slopes.push_back(static_cast<float>(green_up ? d.y : -d.y));
   }
-  return with_pyramid(std::move(slopes), image.width, image.height, 2);
+  const TexelCode code = code_for(image, slopes);
+  return with_pyramid(std::move(slopes), image.width, image.height, 2, code);
 }
 
 Map make_direction_map(const Image& image, bool green_up) {
@@ -98,7 +105,8 @@ Map make_channel_map(const Image& image, int channel) {
     const float value = image.texels[i * static_cast<std::size_t>(image.channels) + source];
     values[i] = min(max(value, 0.0f), 1.0f); // NaN becomes 0
   }
-  return with_pyramid(std::move(values), image.width, image.height, 1);
+  const TexelCode code = is_integer(image.depth) ? code_for_scalars(values) : TexelCode{};
+  return with_pyramid(std::move(values), image.width, image.height, 1, code);
 }
 
 } // namespace surfgrad::image

@@ -4,6 +4,7 @@
 
 #include <surfgrad/scalar.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,23 +17,53 @@ enum class NormalChannels {
   xy,        ///< two channels, z reconstructed for a unit vector
 };
 
-/// A map ready for sampling: float components, a full mip pyramid, whole 32-bit words.
+/// How a texel lies in the words of a map.
+enum class TexelFormat {
+  floats,  ///< a word a component
+  slope16, ///< one word: two signed 16-bit codes, ds in the low half
+  unorm16, ///< one word: the texel's unsigned code in the low half, its right neighbour's in the high half
+};
+
+/// A map ready for sampling: a full mip pyramid of texels in one format, whole 32-bit words.
 ///
 /// What is filtered is what a level averages: slopes average linearly (a tilted map keeps its tilt
 /// down to 1x1), normals do not, so normal maps become slopes before the pyramid is built.
+///
+/// Every row of texels ends with a copy of its first, and every level with a copy of its first row (the
+/// right neighbour of that copy is the row's first texel again). So the four texels of a linear filter lie
+/// at the same distances everywhere, over the border of a map that repeats too; for other wraps the copies
+/// have no weight.
 struct Map {
-  int components = 0;                       ///< floats a texel: 1 scalar, 2 slope, 3 direction
+  int components = 0; ///< 1 scalar, 2 slope, 3 direction
+  TexelFormat format = TexelFormat::floats;
+  double scale = 1;                         ///< value of the code 1; of slopes a power of two
   int level_count = 0;                      ///< at least 1
-  std::vector<std::uint32_t> words{};       ///< float bits, level after level, row 0 at the bottom
+  std::vector<std::uint32_t> words{};       ///< level after level, row 0 at the bottom
   std::vector<std::uint32_t> level_table{}; ///< width, height, first word: three words a level
 
   [[nodiscard]] int width(int level = 0) const { return static_cast<int>(level_table[3 * level]); }
   [[nodiscard]] int height(int level = 0) const { return static_cast<int>(level_table[3 * level + 1]); }
+  [[nodiscard]] int texel_words() const { return format == TexelFormat::floats ? components : 1; }
+  /// Word of a texel; x up to width and y up to height, the copies.
+  [[nodiscard]] std::size_t word(int level, int x, int y) const {
+    const std::size_t row = static_cast<std::size_t>(y) * (static_cast<std::size_t>(width(level)) + 1);
+    return level_table[3 * static_cast<std::size_t>(level) + 2] +
+           (row + static_cast<std::size_t>(x)) * static_cast<std::size_t>(texel_words());
+  }
+  /// A component of a texel, as the sampler in double reads it.
+  [[nodiscard]] double value(int level, int x, int y, int component = 0) const;
   [[nodiscard]] Words texels() const { return {words.data(), static_cast<std::int32_t>(words.size())}; }
   [[nodiscard]] Words levels() const {
     return {level_table.data(), static_cast<std::int32_t>(level_table.size())};
   }
 };
+
+/// No side of a map is longer: texel positions and their halves are then exact in float.
+inline constexpr int map_most_texels = 1 << 22;
+
+/// Words of a map with its pyramid. They are counted by 32-bit integers: a map that needs more than 2^31 - 1
+/// cannot be made.
+[[nodiscard]] std::int64_t words_of_map(int width, int height, int texel_words);
 
 /// A map together with what its texels were like.
 struct SlopeMap {
@@ -46,6 +77,8 @@ struct SlopeMap {
 /// image     at least two channels; three where `channels` is xyz
 /// green_up  the map's green grows with t; false negates the second slope (section 2.1)
 /// not finite texels of a float file are flat; with three channels they count as inward
+/// returns   slope16 for 8-bit files without slopes of 4 or more, else floats. slope16 rounds a component by
+///           at most 2^-14 (6.1e-5), less than a hundredth of the step from code to code.
 /// source    derivative_from_normal, texel by texel
 [[nodiscard]] SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up);
 
@@ -63,7 +96,7 @@ enum class NeutralCode {
 /// green_up  the map's green grows with t; false negates the second slope
 /// neutral   for integer files. `between` tilts a flat 8-bit map by range / 255; `whole` keeps it flat.
 /// returns   slopes shortened along their direction to components within +-max_slope, as normal maps are;
-///           not finite texels of a float file are flat
+///           not finite texels of a float file are flat. In the formats of make_slope_map.
 /// source    Mikkelsen 2019, section 2.1: what a normal map is converted to, stored as it is
 [[nodiscard]] Map make_derivative_map(const Image& image, double range, bool green_up,
                                       NeutralCode neutral = NeutralCode::between);
@@ -75,7 +108,8 @@ enum class NeutralCode {
 [[nodiscard]] Map make_direction_map(const Image& image, bool green_up);
 
 /// One channel as a map of weights within [0, 1]: a float file's values are clamped, NaN becomes 0. A
-/// channel that the image lacks reads as the last one it has, except alpha, which reads as 1.
+/// channel that the image lacks reads as the last one it has, except alpha, which reads as 1. Integer files
+/// become unorm16, which holds their codes exactly and rounds coarser levels by at most 2^-17.
 [[nodiscard]] Map make_channel_map(const Image& image, int channel);
 
 } // namespace surfgrad::image

@@ -47,15 +47,6 @@ struct Source {
 [[nodiscard]] inline float from_code(std::uint8_t code) { return static_cast<float>(code) / 255.0f; }
 [[nodiscard]] inline float from_code(std::uint16_t code) { return static_cast<float>(code) / 65535.0f; }
 
-/// The nearest integer code to a value: below 0 and NaN give 0, above 1 gives the largest code.
-template <class Code>
-[[nodiscard]] Code to_code(float value) {
-  constexpr float largest = static_cast<float>(static_cast<Code>(~Code{0}));
-  if (!(value > 0.0f)) return 0; // also NaN
-  if (value >= 1.0f) return static_cast<Code>(~Code{0});
-  return static_cast<Code>(value * largest + 0.5f);
-}
-
 /// Row of the image (0 at the bottom) that holds row `file_row` of a file (0 at the top), and back.
 [[nodiscard]] inline int flipped(const image::Image& image, int file_row) {
   return image.height - 1 - file_row;
@@ -63,9 +54,6 @@ template <class Code>
 
 /// One row of an image: width * channels floats.
 [[nodiscard]] inline std::span<float> row(image::Image& image, int y) {
-  return {image.texels.data() + image.index(0, y), image.index(image.width, 0)};
-}
-[[nodiscard]] inline std::span<const float> row(const image::Image& image, int y) {
   return {image.texels.data() + image.index(0, y), image.index(image.width, 0)};
 }
 
@@ -80,11 +68,5 @@ template <class Code>
 
 /// TGA has no magic: whether the first bytes can be the header of one.
 [[nodiscard]] bool could_be_tga(std::span<const std::byte> bytes);
-
-// Each encoder takes an image of 1 to 4 channels within the limits above and a depth its format
-// holds. Throws MachineError where the library fails, std::bad_alloc where memory runs out.
-[[nodiscard]] std::vector<std::byte> encode_png(const image::Image& image, image::Depth depth);
-[[nodiscard]] std::vector<std::byte> encode_tiff(const image::Image& image, image::Depth depth);
-[[nodiscard]] std::vector<std::byte> encode_exr(const image::Image& image, image::Depth depth);
 
 } // namespace surfgrad::io::codec

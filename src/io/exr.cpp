@@ -47,25 +47,6 @@ class MemoryInput : public Imf::IStream {
   std::uint64_t position_ = 0;
 };
 
-class MemoryOutput : public Imf::OStream {
- public:
-  MemoryOutput() : OStream("") {}
-
-  void write(const char source[], int count) override {
-    const std::uint64_t end = position_ + static_cast<std::uint64_t>(count);
-    if (end > bytes.size()) bytes.resize(end);
-    std::memcpy(bytes.data() + position_, source, static_cast<std::size_t>(count));
-    position_ = end;
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = position; }
-
-  std::vector<std::byte> bytes{};
-
- private:
-  std::uint64_t position_ = 0;
-};
-
 /// Reads the little-endian fields of a header in order; every read is checked against the end.
 class HeaderScan {
  public:
@@ -222,35 +203,6 @@ Image read_pixels(const Source& source) {
   return image;
 }
 
-template <class Sample>
-std::vector<std::byte> write_pixels(const Image& image, Imf::PixelType type) {
-  static constexpr std::array<std::array<const char*, 4>, 4> names{
-      {{"Y"}, {"R", "G"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
-  std::vector<Sample> samples;
-  samples.reserve(image.texels.size());
-  for (int y = 0; y < image.height; ++y)
-    for (const float value : row(image, flipped(image, y))) samples.push_back(Sample(value));
-
-  Imf::Header header(image.width, image.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::FrameBuffer source;
-  const std::size_t texel_bytes = sizeof(Sample) * static_cast<std::size_t>(image.channels);
-  for (int i = 0; i < image.channels; ++i) {
-    const char* name = names[image.channels - 1][i];
-    header.channels().insert(name, Imf::Channel(type));
-    source.insert(name, Imf::Slice::Make(type, samples.data() + i, header.dataWindow(), texel_bytes,
-                                         texel_bytes * static_cast<std::size_t>(image.width)));
-  }
-  MemoryOutput stream;
-  {
-    constexpr int no_threads = 0;
-    Imf::OutputFile file(stream, header, no_threads);
-    file.setFrameBuffer(source);
-    file.writePixels(image.height);
-  } // the destructor completes the table of offsets
-  return std::move(stream.bytes);
-}
-
 } // namespace
 
 Image decode_exr(const Source& source) {
@@ -263,17 +215,6 @@ Image decode_exr(const Source& source) {
     throw;
   } catch (const std::exception& error) {
     source.fail_damaged(error.what());
-  }
-}
-
-std::vector<std::byte> encode_exr(const Image& image, Depth depth) {
-  try {
-    return depth == Depth::half ? write_pixels<half>(image, Imf::HALF)
-                                : write_pixels<float>(image, Imf::FLOAT);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw MachineError(fmt::format("cannot encode EXR: {}", error.what()));
   }
 }
 

@@ -61,56 +61,6 @@ fs::path checked_target(const fs::path& file) {
   return target;
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-/// A new file beside the target, removed again unless it is renamed into place. It has the
-/// permissions of the file that it is to replace, before it holds anything.
-class Temporary {
- public:
-  explicit Temporary(fs::path target) : target_(std::move(target)) {
-    std::random_device random;
-    // A name clash is a matter of 1 in 2^32 a leftover file; a few attempts are plenty.
-    for (int attempt = 0; attempt < 8 && !stream_; ++attempt) {
-      path_ = target_.parent_path() / fmt::format(".surfgrad-{:08x}.partial", random());
-      stream_.reset(std::fopen(path_.string().c_str(), "wbx"));
-      if (!stream_ && errno != EEXIST) break;
-    }
-    if (!stream_) cannot_write(target_, "create a file in this folder", errno);
-    std::error_code ignored; // a file system without permissions has none to keep
-    const fs::file_status old = fs::status(target_, ignored);
-    if (fs::exists(old)) fs::permissions(path_, old.permissions() & fs::perms::all, ignored);
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() {
-    stream_.reset();
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove(path_, ignored);
-  }
-
-  void write(std::span<const std::byte> bytes) {
-    if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size())
-      cannot_write(target_, "write", errno);
-  }
-
-  void rename_into_place() {
-    // A full disk may show only when the last buffered bytes go out.
-    if (std::fflush(stream_.get()) != 0) cannot_write(target_, "write", errno);
-    if (std::fclose(stream_.release()) != 0) cannot_write(target_, "write", errno);
-    std::error_code error;
-    fs::rename(path_, target_, error);
-    if (error) cannot_write(target_, "move the finished file into place", error.value());
-    path_.clear();
-  }
-
- private:
-  fs::path target_;
-  fs::path path_{};
-  std::unique_ptr<std::FILE, CloseFile> stream_{};
-};
-
 } // namespace
 
 std::vector<std::byte> read_file(const fs::path& file) {
@@ -151,12 +101,55 @@ std::vector<std::byte> read_file(const fs::path& file) {
   return bytes;
 }
 
-void write_file(const fs::path& file, std::span<const std::byte> bytes) {
-  Temporary temporary(checked_target(file));
-  temporary.write(bytes);
-  temporary.rename_into_place();
+OutputFile::OutputFile(const fs::path& file) : target_(checked_target(file)) {
+  std::random_device random;
+  // A name clash is a matter of 1 in 2^32 a leftover file; a few attempts are plenty.
+  for (int attempt = 0; attempt < 8 && !stream_; ++attempt) {
+    temporary_ = target_.parent_path() / fmt::format(".surfgrad-{:08x}.partial", random());
+    stream_.reset(std::fopen(temporary_.string().c_str(), "wbx"));
+    if (!stream_ && errno != EEXIST) break;
+  }
+  if (!stream_) cannot_write(target_, "create a file in this folder", errno);
+  std::error_code ignored; // a file system without permissions has none to keep
+  const fs::file_status old = fs::status(target_, ignored);
+  if (fs::exists(old)) fs::permissions(temporary_, old.permissions() & fs::perms::all, ignored);
 }
 
-void check_writable(const fs::path& file) { const Temporary temporary(checked_target(file)); }
+OutputFile::~OutputFile() {
+  stream_.reset();
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size())
+    cannot_write(target_, "write", errno);
+  position_ += bytes.size();
+}
+
+void OutputFile::seek(std::uint64_t position) {
+  // What is buffered goes out first, which may fail as writing does.
+  if (std::fseek(stream_.get(), static_cast<long>(position), SEEK_SET) != 0)
+    cannot_write(target_, "write", errno);
+  position_ = position;
+}
+
+void OutputFile::commit() {
+  // A full disk may show only when the last buffered bytes go out.
+  if (std::fflush(stream_.get()) != 0) cannot_write(target_, "write", errno);
+  if (std::fclose(stream_.release()) != 0) cannot_write(target_, "write", errno);
+  std::error_code error;
+  fs::rename(temporary_, target_, error);
+  if (error) cannot_write(target_, "move the finished file into place", error.value());
+  temporary_.clear();
+}
+
+void write_file(const fs::path& file, std::span<const std::byte> bytes) {
+  OutputFile output(file);
+  output.write(bytes);
+  output.commit();
+}
+
+void check_writable(const fs::path& file) { const OutputFile probe(file); }
 
 } // namespace surfgrad::io

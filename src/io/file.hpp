@@ -1,7 +1,11 @@
 #pragma once
 
+#include "io/byte_sink.hpp"
+
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,13 +17,39 @@ namespace surfgrad::io {
 /// device, a pipe) or is larger than 8 GiB; MachineError where the content does not fit in memory.
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file);
 
-/// Writes all or nothing: a temporary file beside the target is completed, then renamed over it.
-/// A symbolic link is followed, also to a file that does not exist yet, so that the link survives.
-/// A file that is replaced passes its permission bits on. On failure the temporary is removed and
+/// A file written piece by piece that appears whole or not at all. The pieces go to a temporary file
+/// beside the target, which commit() renames over it; without that the temporary is removed, and
 /// whatever the target held before is untouched.
 ///
-/// Throws InputError as check_writable does, MachineError where the file system fails (disk full,
-/// no permission).
+/// A symbolic link is followed, also to a file that does not exist yet, so that the link survives. A
+/// file that is replaced passes its permission bits on, before the new one holds anything.
+class OutputFile : public ByteSink {
+ public:
+  /// Throws as check_writable does.
+  explicit OutputFile(const std::filesystem::path& file);
+  ~OutputFile() override;
+
+  /// Throws MachineError where the file system fails, e.g. a full disk; the file is then good for
+  /// nothing but its end. So do seek() and commit().
+  void write(std::span<const std::byte> bytes) override;
+  void seek(std::uint64_t position) override;
+  [[nodiscard]] std::uint64_t position() const override { return position_; }
+
+  /// Once, after the last write.
+  void commit();
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::filesystem::path target_;
+  std::filesystem::path temporary_{};
+  std::unique_ptr<std::FILE, CloseFile> stream_{};
+  std::uint64_t position_ = 0;
+};
+
+/// Writes `bytes` through an OutputFile. Throws as it does.
 void write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 /// Tries whether write_file could put a file there now, by creating and removing a temporary.

@@ -69,11 +69,11 @@ mat4<double> transform_of(const Document& document, const tinygltf::Node& node, 
 /// Puts a model together: walks the nodes and reads each mesh when a node first shows it.
 class Reader {
  public:
-  Reader(const Document& document, std::span<const double> morph_weights)
-      : document_(&document), morph_weights_(morph_weights) {}
+  Reader(const Document& document, const ModelOptions& options)
+      : document_(&document), report_(options.report), morph_weights_(options.morph_weights) {}
 
   Model read() {
-    model_.materials = gltf::read_materials(*document_);
+    model_.materials = gltf::read_materials(*document_, report_);
     std::vector<Visit> pending = roots();
     std::vector<bool> visited(nodes().size(), false);
     while (!pending.empty()) {
@@ -209,6 +209,7 @@ class Reader {
   }
 
   const Document* document_;
+  Report report_;
   std::span<const double> morph_weights_;
   /// Places in the model of a mesh with these weights, once read.
   std::map<std::pair<std::size_t, std::vector<double>>, std::vector<std::size_t>> meshes_{};
@@ -220,9 +221,9 @@ class Reader {
 } // namespace
 
 Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> bytes,
-                std::span<const double> morph_weights) {
+                const ModelOptions& options) {
   const Document document = gltf::read_document(file, bytes);
-  return Reader(document, morph_weights).read();
+  return Reader(document, options).read();
 }
 
 } // namespace surfgrad::io

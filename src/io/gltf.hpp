@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/model.hpp"
+#include "io/model_file.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -9,8 +9,8 @@
 namespace surfgrad::io {
 
 /// The model in the bytes of a .gltf or .glb file; `file` serves messages and finds the files that
-/// its URIs name. See read_model and, for `morph_weights`, ModelOptions.
+/// its URIs name. See read_model.
 [[nodiscard]] Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> bytes,
-                              std::span<const double> morph_weights);
+                              const ModelOptions& options);
 
 } // namespace surfgrad::io

@@ -2,12 +2,15 @@
 
 #include "io/gltf_uri.hpp"
 #include "io/image_file.hpp"
+#include "io/in_parallel.hpp"
 
 #include <surfgrad/trigonometry.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <exception>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -19,16 +22,18 @@
 namespace surfgrad::io::gltf {
 namespace {
 
+/// An image as it was read, or why it could not be.
 struct NamedImage {
   std::filesystem::path name{};
   std::shared_ptr<const image::Image> image{};
+  std::exception_ptr error{};
 };
 
 NamedImage read_named_image(const Document& document, int index) {
   const auto& [view, uri] = document.images[static_cast<std::size_t>(index)];
   const std::string place = fmt::format("images[{}]", index);
   const auto decoded = [](std::span<const std::byte> bytes, const std::filesystem::path& name) {
-    return NamedImage{name, std::make_shared<const image::Image>(decode_image(bytes, name))};
+    return NamedImage{name, std::make_shared<const image::Image>(decode_image(bytes, name)), nullptr};
   };
   if (view >= 0)
     return decoded(document.bytes_of_view(view), fmt::format("{}:{}", document.file.string(), place));
@@ -40,7 +45,19 @@ NamedImage read_named_image(const Document& document, int index) {
 /// Reads the materials of a document and each image once.
 class Materials {
  public:
-  explicit Materials(const Document& document) : document_(&document) {}
+  Materials(const Document& document, const Report& report) : document_(&document) {
+    std::vector<int> indices;
+    std::vector<std::function<void()>> jobs;
+    for (const tinygltf::Material& material : document.model.materials) {
+      const int index = image_of(material);
+      if (index < 0 || images_.contains(index)) continue;
+      jobs.emplace_back(
+          [&document, index, &image = images_[index]] { image = read_named_image(document, index); });
+      indices.push_back(index);
+    }
+    const std::vector<std::exception_ptr> errors = run_in_parallel(jobs, report);
+    for (std::size_t i = 0; i < errors.size(); ++i) images_[indices[i]].error = errors[i];
+  }
 
   ModelMaterial read(std::size_t index) {
     const tinygltf::Material& source = document_->model.materials[index];
@@ -54,6 +71,12 @@ class Materials {
   }
 
  private:
+  /// Of the normal texture, or -1.
+  int image_of(const tinygltf::Material& material) const {
+    const int texture = material.normalTexture.index;
+    return texture < 0 ? -1 : document_->model.textures[static_cast<std::size_t>(texture)].source;
+  }
+
   ModelTexture read_normal_texture(const tinygltf::NormalTextureInfo& info, const std::string& place) {
     ModelTexture result;
     result.uv_set = info.texCoord;
@@ -72,8 +95,8 @@ class Materials {
     if (texture.source < 0)
       document_->fail(fmt::format("textures[{}]", info.index), "\"source\" is missing",
                       "expected the key \"source\" here");
-    NamedImage& image = images_[texture.source];
-    if (!image.image) image = read_named_image(*document_, texture.source);
+    const NamedImage& image = images_.at(texture.source);
+    if (image.error) std::rethrow_exception(image.error);
     result.name = image.name;
     result.image = image.image;
     return result;
@@ -129,8 +152,8 @@ class Materials {
 
 } // namespace
 
-std::vector<ModelMaterial> read_materials(const Document& document) {
-  Materials reader(document);
+std::vector<ModelMaterial> read_materials(const Document& document, const Report& report) {
+  Materials reader(document, report);
   std::vector<ModelMaterial> materials;
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) materials.push_back(reader.read(i));
   return materials;

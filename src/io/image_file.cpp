@@ -92,97 +92,6 @@ Reader find_reader(std::span<const std::byte> bytes, const fs::path& name) {
                     .remedy = "expected one of: PNG, TIFF, OpenEXR, JPEG, Radiance HDR, TGA"});
 }
 
-struct Writer {
-  std::string_view name;
-  ImageFormat format;
-  std::array<std::string_view, 2> extensions;
-  std::array<std::optional<Depth>, 3> depths;
-  std::string_view depth_names;
-  std::vector<std::byte> (*encode)(const Image&, Depth);
-};
-
-constexpr std::array writers{
-    Writer{"PNG",
-           ImageFormat::png,
-           {".png"},
-           {Depth::unorm8, Depth::unorm16},
-           "8-bit or 16-bit integers",
-           codec::encode_png},
-    Writer{"TIFF",
-           ImageFormat::tiff,
-           {".tif", ".tiff"},
-           {Depth::unorm8, Depth::unorm16, Depth::float32},
-           "8-bit integers, 16-bit integers or 32-bit floats",
-           codec::encode_tiff},
-    Writer{"EXR",
-           ImageFormat::exr,
-           {".exr"},
-           {Depth::half, Depth::float32},
-           "16-bit or 32-bit floats",
-           codec::encode_exr},
-};
-
-std::string_view depth_name(Depth depth) {
-  switch (depth) {
-  case Depth::unorm8:
-    return "8-bit integers";
-  case Depth::unorm16:
-    return "16-bit integers";
-  case Depth::half:
-    return "16-bit floats";
-  case Depth::float32:
-    return "32-bit floats";
-  }
-  return "values of an unknown kind";
-}
-
-const Writer& find_writer(const fs::path& file) {
-  const std::string extension = lower_extension(file);
-  const auto takes = [&](const Writer& writer) {
-    return !extension.empty() &&
-           std::count(writer.extensions.begin(), writer.extensions.end(), extension) > 0;
-  };
-  const auto writer = std::find_if(writers.begin(), writers.end(), takes);
-  if (writer == writers.end())
-    throw InputError({.file = file,
-                      .problem = fmt::format("no image format for the extension \"{}\"", extension),
-                      .remedy = "expected one of: .png, .tif, .tiff, .exr"});
-  return *writer;
-}
-
-void require_depth(const Writer& writer, Depth depth, const fs::path& file) {
-  if (std::count(writer.depths.begin(), writer.depths.end(), std::optional(depth)) > 0) return;
-  throw InputError({.file = file,
-                    .problem = fmt::format("{} cannot hold {}", writer.name, depth_name(depth)),
-                    .remedy = fmt::format("{} holds {}", writer.name, writer.depth_names)});
-}
-
-const Writer& find_writer(ImageFormat format) {
-  const auto writer =
-      std::find_if(writers.begin(), writers.end(), [&](const Writer& w) { return w.format == format; });
-  if (writer == writers.end()) throw std::invalid_argument("encode_image: unknown format");
-  return *writer;
-}
-
-std::vector<std::byte> encode(const Image& image, Depth depth, const Writer& writer, const fs::path& file) {
-  require_depth(writer, depth, file);
-  if (image.channels < 1 || image.channels > 4)
-    throw InputError({.file = file,
-                      .problem = fmt::format("cannot write an image of {} channels", image.channels),
-                      .remedy = "an image file has 1 to 4 channels"});
-  const auto width = static_cast<std::uint64_t>(std::max(image.width, 0));
-  const auto height = static_cast<std::uint64_t>(std::max(image.height, 0));
-  codec::Source{{}, file, writer.name}.check_size(width, height);
-  if (image.texels.size() != width * height * static_cast<std::uint64_t>(image.channels))
-    throw std::invalid_argument("encode_image: texel count does not match the image's shape");
-  try {
-    return writer.encode(image, depth);
-  } catch (const std::bad_alloc&) {
-    throw MachineError(
-        fmt::format("{}: not enough memory to encode {} x {} texels", file.string(), width, height));
-  }
-}
-
 } // namespace
 
 Image read_image(const fs::path& file) { return decode_image(read_file(file), file); }
@@ -194,19 +103,6 @@ Image decode_image(std::span<const std::byte> bytes, const fs::path& name) {
   } catch (const std::bad_alloc&) {
     throw MachineError(fmt::format("{}: not enough memory to decode this image", name.string()));
   }
-}
-
-std::vector<std::byte> encode_image(const Image& image, Depth depth, ImageFormat format) {
-  return encode(image, depth, find_writer(format), {});
-}
-
-void write_image(const fs::path& file, const Image& image, Depth depth) {
-  write_file(file, encode(image, depth, find_writer(file), file));
-}
-
-void check_image_output(const fs::path& file, Depth depth) {
-  require_depth(find_writer(file), depth, file);
-  check_writable(file);
 }
 
 } // namespace surfgrad::io

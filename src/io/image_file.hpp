@@ -15,6 +15,24 @@ namespace surfgrad::io {
 /// Formats that can be written.
 enum class ImageFormat { png, tiff, exr };
 
+/// What matters more when a file is written; decoders read both, and the values are the same.
+enum class Compression {
+  fast,  ///< about a tenth to a third larger than small, and written two to ten times as fast
+  small, ///< for files that are kept or sent
+};
+
+/// An image but for its texels.
+struct ImageShape {
+  int width;
+  int height;
+  int channels;           ///< 1 to 4
+  bool has_alpha = false; ///< the last channel is opacity, which only TIFF tells from data
+};
+
+[[nodiscard]] inline ImageShape shape_of(const image::Image& image) {
+  return {image.width, image.height, image.channels, image.has_alpha};
+}
+
 /// Reads PNG, TIFF, OpenEXR, JPEG, Radiance HDR or TGA, decided by the content, not by the name.
 ///
 /// Channels: 1 grey, 2 grey+alpha (or the two channels of an EXR or TIFF), 3 rgb, 4 rgba.
@@ -41,13 +59,15 @@ enum class ImageFormat { png, tiff, exr };
 /// Throws InputError where the format cannot hold the depth, or the image has no 1 to 4 channels
 /// or a size decode_image would refuse; MachineError where encoding fails or memory runs out.
 [[nodiscard]] std::vector<std::byte> encode_image(const image::Image& image, image::Depth depth,
-                                                  ImageFormat format);
+                                                  ImageFormat format,
+                                                  Compression compression = Compression::fast);
 
 /// Encodes and writes whole or not at all; the extension decides: .png, .tif, .tiff or .exr.
 ///
 /// Throws InputError for another extension and as encode_image and write_file do; MachineError
 /// where the file cannot be written.
-void write_image(const std::filesystem::path& file, const image::Image& image, image::Depth depth);
+void write_image(const std::filesystem::path& file, const image::Image& image, image::Depth depth,
+                 Compression compression = Compression::fast);
 
 /// What write_image would refuse before it has an image: extension, depth, missing or unwritable
 /// folder. Call it before long work. Throws as write_image does.

@@ -45,7 +45,7 @@ Model read_model(const std::filesystem::path& file, const ModelOptions& options)
                       .remedy = "expected .gltf, .glb or .obj"}};
   const std::vector<std::byte> bytes = read_file(file);
   if (bytes.empty()) throw InputError{{.file = file, .problem = "is empty", .remedy = "expected a model"}};
-  if (extension != ".obj") return read_gltf(file, bytes, options.morph_weights);
+  if (extension != ".obj") return read_gltf(file, bytes, options);
   if (!options.morph_weights.empty())
     throw TooManyWeights{{.file = file,
                           .problem = "has no morph targets: the format knows none",

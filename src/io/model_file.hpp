@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnostic/error.hpp"
+#include "diagnostic/report.hpp"
 #include "io/model.hpp"
 
 #include <cstddef>
@@ -14,6 +15,8 @@ struct ModelOptions {
   /// Weight i goes to morph target i of every mesh that has one, in place of the file's; targets beyond
   /// the list keep theirs. Finite, of any sign; no more than the mesh with most targets has.
   std::vector<double> morph_weights{};
+  /// Asked, with the fraction 0, whether to go on between the images that are decoded.
+  Report report{};
 };
 
 /// More morph weights than any mesh of the model has targets: a mistake of whoever gives them.
@@ -40,7 +43,8 @@ class TooManyWeights : public InputError {
 ///       texture tilts the surface. Materials are the names of usemtl, visible from both sides, for the
 ///       format knows none; .mtl files are not read.
 ///
-/// errors  InputError names the file, the accessor or line, and what would be right; TooManyWeights.
+/// errors  InputError names the file, the accessor or line, and what would be right; TooManyWeights;
+///         Cancelled where the report asks to stop.
 [[nodiscard]] Model read_model(const std::filesystem::path& file, const ModelOptions& options = {});
 
 /// Formats that can be written: the two forms of glTF 2.0.

@@ -72,21 +72,6 @@ void store(const std::vector<std::byte>& raw, const Layout& layout, Image& image
   }
 }
 
-[[noreturn]] void fail_encoding(int error) {
-  throw MachineError(fmt::format("cannot encode PNG: {}", spng_strerror(error)));
-}
-
-template <class Code>
-void encode_rows(spng_ctx* context, const Image& image) {
-  std::vector<Code> codes(row(image, 0).size());
-  for (int y = 0; y < image.height; ++y) {
-    const auto values = row(image, flipped(image, y));
-    std::transform(values.begin(), values.end(), codes.begin(), to_code<Code>);
-    const int error = spng_encode_row(context, codes.data(), codes.size() * sizeof(Code));
-    if (error != 0 && error != SPNG_EOI) fail_encoding(error);
-  }
-}
-
 } // namespace
 
 Image decode_png(const Source& source) {
@@ -130,47 +115,6 @@ Image decode_png(const Source& source) {
   else
     store<std::uint8_t>(raw, layout, image);
   return image;
-}
-
-std::vector<std::byte> encode_png(const Image& image, Depth depth) {
-  constexpr std::array<std::uint8_t, 4> color_types{
-      SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, SPNG_COLOR_TYPE_TRUECOLOR,
-      SPNG_COLOR_TYPE_TRUECOLOR_ALPHA};
-  const Context context = new_context(SPNG_CTX_ENCODER);
-  const auto check = [](int error) {
-    if (error == SPNG_EMEM) throw std::bad_alloc();
-    if (error != 0) fail_encoding(error);
-  };
-  const bool deep = depth == Depth::unorm16;
-  spng_ihdr header{.width = static_cast<std::uint32_t>(image.width),
-                   .height = static_cast<std::uint32_t>(image.height),
-                   .bit_depth = static_cast<std::uint8_t>(deep ? 16 : 8),
-                   .color_type = color_types[image.channels - 1],
-                   .compression_method = 0,
-                   .filter_method = 0,
-                   .interlace_method = SPNG_INTERLACE_NONE};
-  check(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
-  check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1));
-  check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB));
-  // In 16-bit normals and heights hardly a string of bytes comes back: searching for one costs
-  // three times the time and saves no space. Runs are still worth taking.
-  constexpr int zlib_rle = 3;
-  if (deep) check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_STRATEGY, zlib_rle));
-  check(spng_set_ihdr(context.get(), &header));
-  check(spng_encode_image(context.get(), nullptr, 0, SPNG_FMT_PNG,
-                          SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
-  if (deep)
-    encode_rows<std::uint16_t>(context.get(), image);
-  else
-    encode_rows<std::uint8_t>(context.get(), image);
-
-  std::size_t size = 0;
-  int error = 0;
-  const std::unique_ptr<void, decltype(&std::free)> buffer(spng_get_png_buffer(context.get(), &size, &error),
-                                                           &std::free);
-  check(error);
-  const auto* first = static_cast<const std::byte*>(buffer.get());
-  return {first, first + size};
 }
 
 } // namespace surfgrad::io::codec

@@ -1,19 +1,13 @@
 #include "diagnostic/error.hpp"
 #include "io/codecs.hpp"
+#include "io/tiff_library.hpp"
 
 #include <fmt/format.h>
 #include <half.h>
-#include <tiffio.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <cstring>
-#include <exception>
-#include <memory>
-#include <new>
-#include <utility>
 
 namespace surfgrad::io::codec {
 namespace {
@@ -21,85 +15,33 @@ namespace {
 using image::Depth;
 using image::Image;
 
-/// What the library reads from or writes to, and the first error it reports.
+/// What the library reads.
 struct Memory {
-  std::span<const std::byte> input{};
-  std::vector<std::byte> output{};
-  bool writing = false;
+  std::span<const std::byte> bytes{};
   std::uint64_t position = 0;
-  bool out_of_memory = false;
-  std::array<char, 256> error{};
-
-  [[nodiscard]] std::uint64_t size() const { return writing ? output.size() : input.size(); }
 };
-
-// The functions below are called by the C library, so none may let an exception out.
 
 tmsize_t read_memory(thandle_t handle, void* target, tmsize_t count) {
   Memory& memory = *static_cast<Memory*>(handle);
-  if (count <= 0 || memory.position >= memory.size()) return 0;
+  if (count <= 0 || memory.position >= memory.bytes.size()) return 0;
   const std::uint64_t available =
-      std::min<std::uint64_t>(static_cast<std::uint64_t>(count), memory.size() - memory.position);
-  const std::byte* first = memory.writing ? memory.output.data() : memory.input.data();
-  std::memcpy(target, first + memory.position, available);
+      std::min<std::uint64_t>(static_cast<std::uint64_t>(count), memory.bytes.size() - memory.position);
+  std::memcpy(target, memory.bytes.data() + memory.position, available);
   memory.position += available;
   return static_cast<tmsize_t>(available);
 }
 
-tmsize_t write_memory(thandle_t handle, void* source, tmsize_t count) {
-  Memory& memory = *static_cast<Memory*>(handle);
-  if (count <= 0 || !memory.writing) return 0;
-  const std::uint64_t end = memory.position + static_cast<std::uint64_t>(count);
-  try {
-    if (end > memory.output.size()) memory.output.resize(end);
-  } catch (const std::exception&) {
-    memory.out_of_memory = true;
-    return 0;
-  }
-  std::memcpy(memory.output.data() + memory.position, source, static_cast<std::size_t>(count));
-  memory.position = end;
-  return count;
-}
+tmsize_t write_nothing(thandle_t, void*, tmsize_t) { return 0; }
 
 toff_t seek_memory(thandle_t handle, toff_t offset, int whence) {
   Memory& memory = *static_cast<Memory*>(handle);
   if (whence == SEEK_SET) memory.position = offset;
   if (whence == SEEK_CUR) memory.position += offset;
-  if (whence == SEEK_END) memory.position = memory.size() + offset;
+  if (whence == SEEK_END) memory.position = memory.bytes.size() + offset;
   return memory.position;
 }
 
-toff_t size_memory(thandle_t handle) { return static_cast<const Memory*>(handle)->size(); }
-int close_memory(thandle_t) { return 0; }
-
-int keep_error(TIFF*, void* user, const char*, const char* format, va_list arguments) {
-  Memory& memory = *static_cast<Memory*>(user);
-  if (memory.error[0] == '\0') std::vsnprintf(memory.error.data(), memory.error.size(), format, arguments);
-  return 1; // handled: the library must not print it
-}
-
-// Warnings are about tags that do not matter here; lost pixels are errors.
-int drop_warning(TIFF*, void*, const char*, const char*, va_list) { return 1; }
-
-struct CloseTiff {
-  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
-};
-using Tiff = std::unique_ptr<TIFF, CloseTiff>;
-
-/// Null where the library finds no TIFF; `memory.error` then says why.
-Tiff open_tiff(Memory& memory) {
-  const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
-                                                                                 &TIFFOpenOptionsFree);
-  if (!options) throw std::bad_alloc();
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, &memory);
-  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), drop_warning, &memory);
-  // Pixels live in buffers of ours; what the library needs for itself is tables and one packed strip.
-  if (!memory.writing)
-    TIFFOpenOptionsSetMaxSingleMemAlloc(
-        options.get(), static_cast<tmsize_t>((std::uint64_t{64} << 20) + 2 * memory.input.size()));
-  return Tiff(TIFFClientOpenExt("", memory.writing ? "w" : "rm", &memory, read_memory, write_memory,
-                                seek_memory, close_memory, size_memory, nullptr, nullptr, options.get()));
-}
+toff_t size_memory(thandle_t handle) { return static_cast<const Memory*>(handle)->bytes.size(); }
 
 template <class T>
 T field(TIFF* tiff, std::uint32_t tag, T fallback) {
@@ -229,9 +171,13 @@ void store(const Block& block, const Layout& layout, Image& image) {
 } // namespace
 
 Image decode_tiff(const Source& source) {
-  Memory memory{.input = source.bytes};
-  const Tiff tiff = open_tiff(memory);
-  const auto fail = [&] { source.fail_damaged(memory.error.data()); };
+  Memory memory{.bytes = source.bytes};
+  TiffError error{};
+  // Pixels live in buffers of ours; what the library needs for itself is tables and one packed strip.
+  const auto max_allocation = static_cast<tmsize_t>((std::uint64_t{64} << 20) + 2 * source.bytes.size());
+  const Tiff tiff =
+      open_tiff("rm", {&memory, read_memory, write_nothing, seek_memory, size_memory}, error, max_allocation);
+  const auto fail = [&] { source.fail_damaged(error.data()); };
   if (!tiff) fail();
 
   const auto width = field<std::uint32_t>(tiff.get(), TIFFTAG_IMAGEWIDTH, 0);
@@ -282,59 +228,6 @@ Image decode_tiff(const Source& source) {
               layout, image);
       }
   return image;
-}
-
-std::vector<std::byte> encode_tiff(const Image& image, Depth depth) {
-  Memory memory{.writing = true};
-  Tiff tiff = open_tiff(memory);
-  const auto check = [&](bool ok) {
-    if (memory.out_of_memory) throw std::bad_alloc();
-    if (!ok) throw MachineError(fmt::format("cannot encode TIFF: {}", memory.error.data()));
-  };
-  const auto set = [&](std::uint32_t tag, auto value) { check(TIFFSetField(tiff.get(), tag, value) == 1); };
-  check(tiff != nullptr);
-  const bool floats = depth == Depth::float32;
-  const int sample_bytes = floats ? 4 : depth == Depth::unorm16 ? 2 : 1;
-  set(TIFFTAG_IMAGEWIDTH, image.width);
-  set(TIFFTAG_IMAGELENGTH, image.height);
-  set(TIFFTAG_SAMPLESPERPIXEL, image.channels);
-  set(TIFFTAG_BITSPERSAMPLE, sample_bytes * 8);
-  set(TIFFTAG_SAMPLEFORMAT, floats ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
-  set(TIFFTAG_PHOTOMETRIC, image.channels >= 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
-  set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  if (image.channels == 2 || image.channels == 4) {
-    std::uint16_t extra = image.has_alpha ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED;
-    check(TIFFSetField(tiff.get(), TIFFTAG_EXTRASAMPLES, 1, &extra) == 1);
-  }
-  set(TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
-  set(TIFFTAG_ZIPQUALITY, 1); // the higher levels take three times as long to save a tenth
-  set(TIFFTAG_PREDICTOR, floats ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
-  // Strips of about a quarter megabyte: large enough to pack well, small enough to read piecemeal.
-  const int row_bytes = image.width * image.channels * sample_bytes;
-  set(TIFFTAG_ROWSPERSTRIP, std::clamp(262144 / row_bytes, 1, image.height));
-
-  std::vector<std::byte> bytes(static_cast<std::size_t>(row_bytes));
-  for (int y = 0; y < image.height; ++y) {
-    std::byte* next = bytes.data();
-    const auto put = [&](auto sample) {
-      std::memcpy(next, &sample, sizeof sample);
-      next += sizeof sample;
-    };
-    for (const float value : row(image, flipped(image, y))) {
-      if (floats)
-        put(value);
-      else if (sample_bytes == 2)
-        put(to_code<std::uint16_t>(value));
-      else
-        put(to_code<std::uint8_t>(value));
-    }
-    check(TIFFWriteScanline(tiff.get(), bytes.data(), static_cast<std::uint32_t>(y)) == 1);
-  }
-  check(TIFFWriteDirectory(tiff.get()) == 1);
-  tiff.reset();
-  check(true);
-  return std::move(memory.output);
 }
 
 } // namespace surfgrad::io::codec

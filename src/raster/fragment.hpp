@@ -3,6 +3,7 @@
 #include <surfgrad/vec.hpp>
 
 #include <array>
+#include <span>
 
 namespace surfgrad::raster {
 
@@ -35,7 +36,14 @@ struct Fragment {
   vec3<T> dp_dx, dp_dy;
   vec3<T> dn_dx, dn_dy; ///< change of the interpolated normal
   mask_t<T> front_facing;
+  int slots = max_uv_slots; ///< how many of the following there are
   std::array<UvFragment<T>, max_uv_slots> uvs;
 };
+
+/// Those texture coordinates that a fragment carries.
+template <class T>
+[[nodiscard]] std::span<UvFragment<T>> coordinates_of(Fragment<T>& fragment) {
+  return {fragment.uvs.data(), static_cast<std::size_t>(fragment.slots)};
+}
 
 } // namespace surfgrad::raster

@@ -4,6 +4,10 @@
 
 #include <surfgrad/resolve.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace surfgrad::raster {
 namespace {
 
@@ -88,6 +92,33 @@ bool TrianglePlanes::covers(double x, double y) const {
   return true;
 }
 
+std::array<double, 3> TrianglePlanes::margins(double x_most, double y_most) const {
+  std::array<double, 3> margins;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const vec3<double>& a = corners_[(i + 1) % 3];
+    const vec3<double>& b = corners_[(i + 2) % 3];
+    const auto most = [](double c, double point, double w) { return std::abs(c) + point * std::abs(w); };
+    const double parts =
+        most(a.x, x_most, a.z) * most(b.y, y_most, b.z) + most(a.y, y_most, a.z) * most(b.x, x_most, b.z);
+    // Fewer than 16 roundings on either way to the value, none larger than half an epsilon of its parts.
+    margins[i] = 16 * epsilon_v<double> * parts;
+  }
+  return margins;
+}
+
+TrianglePlanes::Box TrianglePlanes::box() const {
+  constexpr double everywhere = std::numeric_limits<double>::infinity();
+  Box box{everywhere, everywhere, -everywhere, -everywhere};
+  for (const vec3<double>& c : corners_) {
+    if (!(c.z > 0)) return {-everywhere, -everywhere, everywhere, everywhere};
+    box.x_low = std::min(box.x_low, c.x / c.z);
+    box.y_low = std::min(box.y_low, c.y / c.z);
+    box.x_high = std::max(box.x_high, c.x / c.z);
+    box.y_high = std::max(box.y_high, c.y / c.z);
+  }
+  return box;
+}
+
 double TrianglePlanes::inverse_w(double x, double y) const {
   const vec3<double> sum = edges_[0] + edges_[1] + edges_[2];
   return scale_ * (sum.x * x + sum.y * y + sum.z);
@@ -106,6 +137,12 @@ TrianglePlanes::Barycentrics TrianglePlanes::barycentrics(double x, double y) co
   return b;
 }
 
+vec2<double> TrianglePlanes::relative_change(double x, double y) const {
+  const vec3<double> sum = edges_[0] + edges_[1] + edges_[2];
+  const double total = sum.x * x + sum.y * y + sum.z;
+  return {sum.x / total, sum.y / total};
+}
+
 namespace {
 
 template <class V, class Corner>
@@ -113,15 +150,15 @@ V weighted(const std::array<double, 3>& w, const Corner& corner) {
   return w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2);
 }
 
-/// Unit, as vertex normals are: the strength of bumps follows the length of the normal.
-vec3<double> triangle_normal(const Surface& surface, const std::array<std::uint32_t, 3>& triangle) {
-  const vec3<double> a = surface.positions[triangle[0]];
+} // namespace
+
+vec3<double> triangle_normal(const Surface& surface, std::uint32_t triangle) {
+  const std::array<std::uint32_t, 3>& vertices = surface.mesh->triangles[triangle];
+  const vec3<double> a = surface.positions[vertices[0]];
   const vec3<double> n =
-      normalize_or_zero(cross(surface.positions[triangle[1]] - a, surface.positions[triangle[2]] - a));
+      normalize_or_zero(cross(surface.positions[vertices[1]] - a, surface.positions[vertices[2]] - a));
   return surface.mirrored ? -n : n;
 }
-
-} // namespace
 
 Fragment<double> make_fragment(const Surface& surface, std::uint32_t triangle, const TrianglePlanes& planes,
                                double x, double y) {
@@ -145,7 +182,7 @@ Fragment<double> make_fragment(const Surface& surface, std::uint32_t triangle, c
   f.dn_dy = weighted<vec3<double>>(b.dy, normal);
   // Vertex normals are unit or zero: what is shorter than this is the rounding of normals that cancel.
   f.normal_is_absent = !(max_abs(f.normal) > 1e-12);
-  if (f.normal_is_absent) f.normal = triangle_normal(surface, vertices);
+  if (f.normal_is_absent) f.normal = triangle_normal(surface, triangle);
   f.front_facing = planes.counter_clockwise() != surface.mirrored;
   for (std::size_t s = 0; s < surface.slots.size(); ++s) {
     const Surface::Coordinates& slot = surface.slots[s];

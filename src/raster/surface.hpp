@@ -60,6 +60,16 @@ class TrianglePlanes {
   [[nodiscard]] bool counter_clockwise() const { return counter_clockwise_; }
   /// Whether the point lies inside. A point on an edge shared by two triangles belongs to one.
   [[nodiscard]] bool covers(double x, double y) const;
+  /// Linear functions e of the raster position, positive inside: e.x * x + e.y * y + e.z.
+  [[nodiscard]] const std::array<vec3<double>, 3>& edges() const { return edges_; }
+  /// How far from zero they must be at a point within |x| <= x_most and |y| <= y_most so that covers()
+  /// agrees with their signs there.
+  [[nodiscard]] std::array<double, 3> margins(double x_most, double y_most) const;
+  /// Around all points inside, up to rounding. Everything where a corner lies at or behind the eye.
+  struct Box {
+    double x_low, y_low, x_high, y_high;
+  };
+  [[nodiscard]] Box box() const;
   /// 1 / w at the point: larger is nearer. Positive where covers() holds.
   [[nodiscard]] double inverse_w(double x, double y) const;
 
@@ -68,6 +78,8 @@ class TrianglePlanes {
     std::array<double, 3> value, dx, dy;
   };
   [[nodiscard]] Barycentrics barycentrics(double x, double y) const;
+  /// Change of 1 / w per pixel to the right and upwards, relative to 1 / w at the point.
+  [[nodiscard]] vec2<double> relative_change(double x, double y) const;
 
  private:
   std::array<vec3<double>, 3> corners_;
@@ -76,6 +88,9 @@ class TrianglePlanes {
   bool counter_clockwise_ = false;
   bool degenerate_ = true;
 };
+
+/// Unit, as vertex normals are: the strength of bumps follows the length of the normal.
+[[nodiscard]] vec3<double> triangle_normal(const Surface& surface, std::uint32_t triangle);
 
 /// The fragment of a triangle at a raster position.
 ///

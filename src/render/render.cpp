@@ -1,14 +1,15 @@
 #include "render/render.hpp"
 
-#include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
-#include "engine/rows.hpp"
-#include "raster/visibility.hpp"
 #include "render/camera.hpp"
-#include "render/shading.hpp"
+#include "render/shade_tile.hpp"
+#include "simd/lane.hpp"
 #include "stage/stage.hpp"
+#include "stage/tile_composer.hpp"
 
-#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,54 +18,24 @@
 namespace surfgrad::render {
 namespace {
 
-/// Near plane and picture plane of the supersampled raster, and everything a sample needs.
-struct Sampler {
-  const stage::Stage& stage;
-  const raster::VisibilityBuffer& visible;
-  const mat4<double>& projection;
-  Aov aov;
-  const Shading* shading; // for beauty only
-
-  struct Result {
-    vec3<double> value;
-    bool degenerate;
-  };
-  [[nodiscard]] Result operator()(int x, int y) const {
-    const raster::Visible& what = visible.at(x, y);
-    const raster::Surface& surface = stage.surfaces()[what.surface];
-    const raster::TrianglePlanes planes = raster::screen_planes(surface, what.triangle, projection);
-    raster::Fragment<double> fragment =
-        raster::make_fragment(surface, what.triangle, planes, x + 0.5, y + 0.5);
-    fragment.to_viewer = normalize_or_zero(-fragment.position);
-    const engine::Composition<double> c = stage.compose(what, fragment);
-    return {value_of(fragment, c), c.degenerate};
-  }
-
- private:
-  [[nodiscard]] vec3<double> value_of(const raster::Fragment<double>& fragment,
-                                      const engine::Composition<double>& c) const {
-    switch (aov) {
-    case Aov::normal:
-      return c.normal;
-    case Aov::base_normal:
-      return c.base_normal;
-    case Aov::surfgrad:
-      return c.surfgrad;
-    case Aov::uv: {
-      const vec2<double> st = fragment.uvs[stage.slot_of(0)].st;
-      return {st.x, st.y, 0};
-    }
-    case Aov::beauty:
-      break;
-    }
-    return (*shading)(c.normal, fragment.to_viewer, c.sunlight);
-  }
-};
+/// Samples along a side of a tile: it fits the first caches with all that is kept of a sample.
+constexpr int tile_side = 32;
 
 /// Dark and neutral, a little lighter towards the top: bumps are judged against it.
-vec3<double> background(double height) {
+vec3<float> background(double height) {
   const double grey = 0.05 + 0.06 * height;
-  return {grey, grey, 1.08 * grey};
+  return {static_cast<float>(grey), static_cast<float>(grey), static_cast<float>(1.08 * grey)};
+}
+
+stage::Outputs outputs_of(Aov aov, std::size_t slot) {
+  const bool beauty = aov == Aov::beauty;
+  return {.normal = beauty || aov == Aov::normal,
+          .base_normal = aov == Aov::base_normal,
+          .surfgrad = aov == Aov::surfgrad,
+          .sunlight = beauty,
+          .to_viewer = beauty,
+          .st = aov == Aov::uv,
+          .slot = slot};
 }
 
 /// Raw values are not averaged: they take one sample a pixel.
@@ -72,83 +43,163 @@ int samples_along_a_side(const Options& options) {
   return options.aov == Aov::beauty ? std::max(1, options.samples) : 1;
 }
 
+/// Values of a tile's samples and pixels. One a thread.
+struct Values {
+  explicit Values(std::size_t samples) : length(samples + most_lanes), storage(7 * length, 0.0f) {}
+
+  [[nodiscard]] vec3<float*> composed() { return {array(0), array(1), array(2)}; }
+  [[nodiscard]] vec3<float*> tile() { return {array(3), array(4), array(5)}; }
+  [[nodiscard]] const float* zeros() { return array(6); }
+
+ private:
+  float* array(std::size_t i) { return storage.data() + i * length; }
+
+  std::size_t length;
+  std::vector<float> storage;
+};
+
+/// Renders rows of tiles.
+class Bands {
+ public:
+  Bands(const stage::Stage& stage, const raster::Projection& projection, const Options& options,
+        const Shading* shading)
+      : options_(options), shading_(shading), side_(samples_along_a_side(options)),
+        pixels_(std::max(1, tile_side / side_)),
+        composer_(stage, projection, options.width * side_, options.height * side_, pixels_ * side_,
+                  pixels_ * side_, outputs_of(options.aov, options.aov == Aov::uv ? stage.slot_of(0) : 0)),
+        values_([this] { return Values(static_cast<std::size_t>(pixels_ * side_ * pixels_ * side_)); }) {}
+
+  [[nodiscard]] int count() const { return composer_.grid().rows(); }
+
+  [[nodiscard]] image::Image make(int row) {
+    const int height = composer_.grid().tile(0, row).height / side_;
+    image::Image band = image::make_image(options_.width, height, 3, image::Depth::float32);
+    tbb::parallel_for(tbb::blocked_range<int>(0, composer_.grid().columns(), 8),
+                      [&](const tbb::blocked_range<int>& columns) {
+                        for (int column = columns.begin(); column < columns.end(); ++column)
+                          draw(composer_.compose(column, row), band);
+                      });
+    return band;
+  }
+
+  [[nodiscard]] Counts counts() const { return {covered_, degenerate_}; }
+
+ private:
+  /// What the composed samples show.
+  [[nodiscard]] vec3<const float*> shown(const stage::ComposedTile& composed, Values& values) const {
+    const engine::TileWork::Results& r = composed.results;
+    const auto constant = [](vec3<float*> a) { return vec3<const float*>{a.x, a.y, a.z}; };
+    switch (options_.aov) {
+    case Aov::normal:
+      return constant(r.normal);
+    case Aov::base_normal:
+      return constant(r.base_normal);
+    case Aov::surfgrad:
+      return constant(r.surfgrad);
+    case Aov::uv:
+      return {r.st.x, r.st.y, values.zeros()};
+    case Aov::beauty:
+      break;
+    }
+    shade_pixels(*shading_, r, composed.count, values.composed());
+    return constant(values.composed());
+  }
+
+  void draw(const stage::ComposedTile& composed, image::Image& band) {
+    Values& values = values_.local();
+    const raster::Tile& tile = composed.tile;
+    const bool beauty = options_.aov == Aov::beauty;
+    const vec3<const float*> from = shown(composed, values);
+    const vec3<float*> samples = values.tile();
+    const int area = tile.width * tile.height;
+    if (composed.count < area)
+      for (int y = 0; y < tile.height; ++y) {
+        const double height = (tile.y + y + 0.5) / (options_.height * side_);
+        const vec3<float> empty = beauty ? background(height) : vec3<float>{0, 0, 0};
+        std::fill_n(samples.x + y * tile.width, tile.width, empty.x);
+        std::fill_n(samples.y + y * tile.width, tile.width, empty.y);
+        std::fill_n(samples.z + y * tile.width, tile.width, empty.z);
+      }
+    float degenerate = 0; // a whole number within a tile
+    for (int i = 0; i < composed.count; ++i) {
+      samples.x[composed.pixel[i]] = from.x[i];
+      samples.y[composed.pixel[i]] = from.y[i];
+      samples.z[composed.pixel[i]] = from.z[i];
+      degenerate += composed.results.degenerate[i];
+    }
+    covered_ += composed.count;
+    degenerate_ += static_cast<std::int64_t>(degenerate);
+    for (float* channel : {samples.x, samples.y, samples.z}) {
+      average(tile, channel);
+      if (beauty) to_display(channel, area / (side_ * side_));
+    }
+    const int width = tile.width / side_;
+    for (int y = 0, i = 0; y < tile.height / side_; ++y) {
+      float* texel = &band.texels[band.index(tile.x / side_, y)];
+      for (int x = 0; x < width; ++x, ++i) {
+        *texel++ = samples.x[i];
+        *texel++ = samples.y[i];
+        *texel++ = samples.z[i];
+      }
+    }
+  }
+
+  /// The means of the samples of each pixel, in place.
+  void average(const raster::Tile& tile, float* samples) const {
+    if (side_ == 1) return;
+    const float share = 1.0f / static_cast<float>(side_ * side_);
+    int pixel = 0;
+    for (int y = 0; y < tile.height; y += side_)
+      for (int x = 0; x < tile.width; x += side_) {
+        float sum = 0;
+        for (int j = 0; j < side_; ++j)
+          for (int i = 0; i < side_; ++i) sum += samples[(y + j) * tile.width + x + i];
+        samples[pixel++] = sum * share; // behind all that is still to be read
+      }
+  }
+
+  const Options& options_;
+  const Shading* shading_;
+  int side_;   ///< samples along a side of a pixel
+  int pixels_; ///< pixels along a side of a tile
+  stage::TileComposer composer_;
+  tbb::enumerable_thread_specific<Values> values_;
+  std::atomic<std::int64_t> covered_{0}, degenerate_{0};
+};
+
 } // namespace
 
-void check_options(const Options& options) {
-  const double pixels = double(options.width) * options.height;
-  const int k = samples_along_a_side(options);
-  const double samples = pixels * k * k; // doubles: the product may pass 2^63
-  const double most = static_cast<double>(most_samples);
-  if (samples <= most) return;
-  const double shrink = std::sqrt(most / samples);
-  const auto side = [&](int length) { return std::max(1, static_cast<int>(length * shrink)); };
-  std::string fits =
-      fmt::format("--size {}x{} with --samples {}", side(options.width), side(options.height), k);
-  if (pixels <= most)
-    fits += fmt::format(" or --samples {} at this size", static_cast<int>(std::sqrt(most / pixels)));
-  throw InputError(
-      {.place = fmt::format("--size {}x{} with --samples {}", options.width, options.height, k),
-       .problem = fmt::format("takes {:.0f} samples, at most {} are possible", samples, most_samples),
-       .remedy = "what fits is " + fits});
-}
-
-Picture render(const scene::Scene& asked, const Options& options, const Report& report) {
-  check_options(options);
+Counts render_bands(const scene::Scene& asked, const Options& options, const stage::BandSink& take,
+                    const Report& report) {
   const auto displaced = displace::displaced(asked, report.at_the_start());
   const scene::Scene& scene = displaced ? displaced->scene : asked;
-  const bool beauty = options.aov == Aov::beauty;
   const int k = samples_along_a_side(options);
   const int width = options.width * k;
   const int height = options.height * k;
   const Pinhole camera = place_camera(scene, width, height);
-  const mat4<double> projection = camera.screen_from_relative(width, height);
   std::vector<raster::UvSlot> needed;
   if (options.aov == Aov::uv) needed.push_back({0, false});
   std::optional<Shading> shading;
-  if (beauty) shading.emplace(scene.lights, scene.environment.get());
+  if (options.aov == Aov::beauty) shading.emplace(scene.lights, scene.environment.get());
   const stage::View view{camera.eye, camera.relative_from_screen(width, height),
                          shading ? shading->to_sun() : vec3<double>{0, 0, 0}};
   const stage::Stage stage(scene, view, needed, report);
-  const raster::VisibilityBuffer visible = raster::see_from_camera(
-      stage.surfaces(), projection, camera.near, width, height,
-      [&](std::uint32_t s, std::uint32_t t, bool front) { return stage.culled(s, t, front); });
-  const Sampler sample{stage, visible, projection, options.aov, shading ? &*shading : nullptr};
+  const auto projection = raster::Projection::camera(camera.screen_from_relative(width, height), camera.near);
+  Bands bands(stage, projection, options, shading ? &*shading : nullptr);
+  stage::for_each_band(
+      bands.count(), report, [&](int row) { return bands.make(row); }, take);
+  return bands.counts();
+}
 
-  Picture picture{image::make_image(options.width, options.height, 3, image::Depth::float32)};
-  std::atomic<std::int64_t> covered{0};
-  std::atomic<std::int64_t> degenerate{0};
-  engine::for_each_row(options.height, report, [&](int row) {
-    std::int64_t row_covered = 0;
-    std::int64_t row_degenerate = 0;
-    for (int column = 0; column < options.width; ++column) {
-      vec3<double> sum{0, 0, 0};
-      for (int y = row * k; y < (row + 1) * k; ++y)
-        for (int x = column * k; x < (column + 1) * k; ++x) {
-          if (visible.at(x, y).surface == raster::Visible::none) {
-            if (beauty) sum = sum + background((y + 0.5) / height);
-            continue;
-          }
-          const Sampler::Result r = sample(x, y);
-          sum = sum + r.value;
-          ++row_covered;
-          row_degenerate += r.degenerate;
-        }
-      vec3<double> mean = (1.0 / (k * k)) * sum;
-      if (beauty) mean = {display_value(mean.x), display_value(mean.y), display_value(mean.z)};
-      picture.image.at(column, row, 0) = static_cast<float>(mean.x);
-      picture.image.at(column, row, 1) = static_cast<float>(mean.y);
-      picture.image.at(column, row, 2) = static_cast<float>(mean.z);
-    }
-    covered += row_covered;
-    degenerate += row_degenerate;
-  });
-  picture.covered = covered;
-  picture.degenerate = degenerate;
+Picture render(const scene::Scene& scene, const Options& options, const Report& report) {
+  Picture picture;
+  picture.image = image::make_image(options.width, options.height, 3, image::Depth::float32);
+  static_cast<Counts&>(picture) = render_bands(scene, options, stage::into(picture.image), report);
   return picture;
 }
 
-image::Image encoded_for_display(const Picture& picture, Aov aov) {
-  image::Image result = picture.image;
+image::Image encoded_for_display(const image::Image& picture, Aov aov) {
+  image::Image result = picture;
   if (aov == Aov::beauty) return result;
   for (float& v : result.texels) v = aov == Aov::uv ? v - std::floor(v) : 0.5f * v + 0.5f;
   return result;

@@ -3,6 +3,7 @@
 #include "diagnostic/report.hpp"
 #include "image/image.hpp"
 #include "scene/scene.hpp"
+#include "stage/bands.hpp"
 
 #include <cstdint>
 
@@ -24,28 +25,27 @@ struct Options {
   Aov aov = Aov::beauty;
 };
 
-struct Picture {
-  /// rgb. beauty: display values. Others: raw values, zero where nothing is seen, one sample a pixel.
-  image::Image image;
+/// What a picture's samples met.
+struct Counts {
   std::int64_t covered = 0;    ///< samples that show a surface
   std::int64_t degenerate = 0; ///< of these, samples where a normal or a tangent frame did not exist
 };
 
-/// Samples a picture may take: visibility holds a triangle and a depth, 16 bytes, for each of them
-/// at once, so this many are 4 GiB. They are one sample a pixel of a 16384x16384 picture.
-inline constexpr std::int64_t most_samples = std::int64_t{1} << 28;
+struct Picture : Counts {
+  /// rgb. beauty: display values. Others: raw values, zero where nothing is seen, one sample a pixel.
+  image::Image image;
+};
 
-/// Throws InputError, which says what would do, where a picture takes more than most_samples.
-/// render does so too: this is for before the scene is loaded.
-void check_options(const Options& options);
-
-/// Renders a scene with the reference engine, displaced first if it asks for that. Throws as check_options
-/// does. Warns (through report) about normal maps with texels that point into the surface. Same bytes for any
-/// number of threads.
+/// Renders a scene, displaced first if it asks for that. Warns (through report) about normal maps with texels
+/// that point into the surface. Same bytes for any number of threads.
 [[nodiscard]] Picture render(const scene::Scene& scene, const Options& options, const Report& report = {});
+
+/// The same band by band, as they are done: memory does not grow with the picture.
+Counts render_bands(const scene::Scene& scene, const Options& options, const stage::BandSink& take,
+                    const Report& report = {});
 
 /// Raw values of an auxiliary picture brought into [0, 1] for integer files: vectors as v / 2 + 1/2,
 /// uv as its fraction.
-[[nodiscard]] image::Image encoded_for_display(const Picture& picture, Aov aov);
+[[nodiscard]] image::Image encoded_for_display(const image::Image& picture, Aov aov);
 
 } // namespace surfgrad::render

@@ -4,11 +4,16 @@
 #include "io/extension.hpp"
 #include "io/file.hpp"
 #include "io/image_file.hpp"
+#include "io/in_parallel.hpp"
 #include "io/model_file.hpp"
 #include "stack/uses.hpp"
 
+#include <exception>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 namespace surfgrad::scene {
 namespace {
@@ -59,31 +64,88 @@ auto named_by(const fs::path& document, const stack::FileName& name, const Read&
   }
 }
 
-/// Reads each file once.
-void load_image(const stack::FileName& name, const fs::path& document, Scene& scene) {
-  if (scene.images.contains(name.path)) return;
-  scene.images[name.path] = named_by(
-      document, name, [&] { return std::make_shared<const image::Image>(io::read_image(name.path)); });
-}
-
 fs::path beside(const fs::path& document, const fs::path& file) {
   return file.is_absolute() ? file : document.parent_path() / file;
 }
 
-/// Resolves the file names of layers against the document and loads the images.
-void load_maps(std::vector<stack::Layer>& layers, const fs::path& document, Scene& scene) {
-  for (stack::Layer& layer : layers)
-    for (stack::FileName* file : stack::files_of(layer)) {
-      file->path = beside(document, file->path);
-      load_image(*file, document, scene);
+/// All files that a document names but its mesh, in the order in which the scene asks for them.
+std::vector<stack::FileName*> images_of(stack::Stack& document) {
+  std::vector<stack::FileName*> names;
+  const auto add_layers = [&](std::vector<stack::Layer>& layers) {
+    for (stack::Layer& layer : layers)
+      for (stack::FileName* name : stack::files_of(layer)) names.push_back(name);
+  };
+  if (document.has_layers) add_layers(document.layers);
+  for (auto& [name, entry] : document.materials) add_layers(entry.layers);
+  if (document.displace && document.displace->map) names.push_back(&document.displace->map->file);
+  if (document.lights.environment) names.push_back(&*document.lights.environment);
+  return names;
+}
+
+/// What the files of a document hold, each read once, as many at a time as there are threads. What
+/// failed is thrown by whoever asks for it, as if it was read only then.
+class Files {
+ public:
+  /// Resolves the names of the document's images against its folder and reads them and the model.
+  Files(stack::Stack& document, const fs::path& model, const Report& report) : document_(&document) {
+    std::vector<std::function<void()>> jobs;
+    if (document.mesh)
+      jobs.emplace_back([&] {
+        model_.content = io::read_model(model, {.morph_weights = document.morph.weights, .report = report});
+      });
+    std::vector<std::exception_ptr*> errors;
+    if (document.mesh) errors.push_back(&model_.error);
+    for (stack::FileName* name : images_of(document)) {
+      name->path = beside(document.file, name->path);
+      const auto [at, is_new] = images_.try_emplace(name->path);
+      if (!is_new) continue;
+      jobs.emplace_back([&path = at->first, &image = at->second.content] {
+        image = std::make_shared<const image::Image>(io::read_image(path));
+      });
+      errors.push_back(&at->second.error);
     }
+    const std::vector<std::exception_ptr> thrown = io::run_in_parallel(jobs, report);
+    for (std::size_t i = 0; i < thrown.size(); ++i) *errors[i] = thrown[i];
+  }
+
+  /// Once.
+  io::Model take_model() {
+    return named_by(document_->file, *document_->mesh, [&] { return std::move(content_of(model_)); });
+  }
+  std::shared_ptr<const image::Image> image(const stack::FileName& name) {
+    return named_by(document_->file, name, [&] { return content_of(images_.at(name.path)); });
+  }
+
+ private:
+  template <class Content>
+  struct Reading {
+    Content content{};
+    std::exception_ptr error{};
+  };
+  template <class Content>
+  static Content& content_of(Reading<Content>& reading) {
+    if (reading.error) std::rethrow_exception(reading.error);
+    return reading.content;
+  }
+
+  stack::Stack* document_;
+  Reading<io::Model> model_{};
+  std::map<fs::path, Reading<std::shared_ptr<const image::Image>>> images_{};
+};
+
+void take_image(const stack::FileName& name, Files& files, Scene& scene) {
+  scene.images.try_emplace(name.path, files.image(name));
+}
+
+void take_maps(std::vector<stack::Layer>& layers, Files& files, Scene& scene) {
+  for (stack::Layer& layer : layers)
+    for (const stack::FileName* name : stack::files_of(layer)) take_image(*name, files, scene);
 }
 
 /// The model with the document's morph weights.
-io::Model read_model(const fs::path& model, const stack::Stack& document) {
+io::Model take_model(const fs::path& model, const stack::Stack& document, Files& files) {
   try {
-    return named_by(document.file, *document.mesh,
-                    [&] { return io::read_model(model, {.morph_weights = document.morph.weights}); });
+    return files.take_model();
   } catch (const io::TooManyWeights& error) {
     throw InputError({document.file, document.morph.line, "morph",
                       model.filename().string() + " " + error.fault().problem, error.fault().remedy});
@@ -96,7 +158,7 @@ void refuse_weights_of_the_demo(const stack::Stack& document) {
                     "give a \"mesh\" that has some"});
 }
 
-void take_model(io::Model model, Scene& scene) {
+void place_model(io::Model model, Scene& scene) {
   scene.meshes = std::move(model.meshes);
   for (io::ModelObject& object : model.objects)
     scene.objects.push_back({std::move(object.name), object.mesh, object.world_from_object});
@@ -118,13 +180,13 @@ std::string names_of(const std::vector<Material>& materials) {
   return names;
 }
 
-void assign_layers(stack::Stack& document, Scene& scene) {
+void assign_layers(stack::Stack& document, Files& files, Scene& scene) {
   if (document.has_layers) {
-    load_maps(document.layers, document.file, scene);
+    take_maps(document.layers, files, scene);
     for (Material& m : scene.materials) m.layers = document.layers;
   }
   for (auto& [name, entry] : document.materials) {
-    load_maps(entry.layers, document.file, scene);
+    take_maps(entry.layers, files, scene);
     bool known = false;
     for (Material& m : scene.materials) {
       if (m.name != name) continue;
@@ -166,35 +228,31 @@ void check_uv_sets(const Scene& scene, const fs::path& document, const fs::path&
   }
 }
 
-Scene load_document(const fs::path& file) {
+Scene load_document(const fs::path& file, const Report& report) {
   const std::vector<std::byte> bytes = io::read_file(file);
   stack::Stack document =
       stack::parse_stack({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
   Scene scene;
   scene.source = file;
-  fs::path model;
+  if (!document.mesh) refuse_weights_of_the_demo(document);
+  const fs::path model = document.mesh ? beside(file, document.mesh->path) : fs::path();
+  Files files(document, model, report);
   if (document.mesh) {
-    model = beside(file, document.mesh->path);
-    take_model(read_model(model, document), scene);
+    place_model(take_model(model, document, files), scene);
   } else {
-    refuse_weights_of_the_demo(document);
     Scene demo = demo_scene();
     scene.meshes = std::move(demo.meshes);
     scene.objects = std::move(demo.objects);
     scene.materials = std::move(demo.materials);
     scene.images = std::move(demo.images);
   }
-  assign_layers(document, scene);
+  assign_layers(document, files, scene);
   scene.displace = std::move(document.displace);
-  if (scene.displace && scene.displace->map) {
-    scene.displace->map->file.path = beside(file, scene.displace->map->file.path);
-    load_image(scene.displace->map->file, file, scene);
-  }
+  if (scene.displace && scene.displace->map) take_image(scene.displace->map->file, files, scene);
   scene.camera = document.camera;
   scene.lights = document.lights;
   if (scene.lights.environment) {
-    scene.lights.environment->path = beside(file, scene.lights.environment->path);
-    load_image(*scene.lights.environment, file, scene);
+    take_image(*scene.lights.environment, files, scene);
     scene.environment = scene.images.at(scene.lights.environment->path);
   }
   check_uv_sets(scene, file, model);
@@ -203,7 +261,7 @@ Scene load_document(const fs::path& file) {
 
 } // namespace
 
-Scene load_scene(const fs::path& file) {
+Scene load_scene(const fs::path& file, const Report& report) {
   const std::string extension = io::lower_extension(file);
   const bool folder = fs::is_directory(file);
   if (folder || (extension != ".json" && extension != ".gltf" && extension != ".glb" && extension != ".obj"))
@@ -212,10 +270,10 @@ Scene load_scene(const fs::path& file) {
                                  : extension.empty() ? "has no extension"
                                                      : "\"" + extension + "\" is not a scene's extension",
                       .remedy = "expected a stack document (.json) or a model (.gltf, .glb, .obj)"});
-  if (extension == ".json") return load_document(file);
+  if (extension == ".json") return load_document(file, report);
   Scene scene;
   scene.source = file;
-  take_model(io::read_model(file), scene);
+  place_model(io::read_model(file, {.morph_weights = {}, .report = report}), scene);
   check_uv_sets(scene, file, file);
   return scene;
 }

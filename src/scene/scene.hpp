@@ -50,10 +50,13 @@ struct Scene {
 };
 
 /// Loads a stack document (.json) with all it names, or a model (.gltf, .glb, .obj) as the stack of
-/// its own normal textures. Files named in a document are relative to its folder.
+/// its own normal textures. Files named in a document are relative to its folder, and several are decoded
+/// at a time. Progress is asked between them, with the fraction 0, perhaps by another thread.
 ///
-/// Throws InputError for whatever is wrong with any of the files, naming it and the place.
-[[nodiscard]] Scene load_scene(const std::filesystem::path& file);
+/// Throws InputError for whatever is wrong with any of the files, naming it and the place: of several the
+/// one that the document names first, materials in the order of their names. Cancelled where the progress
+/// callback asks to stop.
+[[nodiscard]] Scene load_scene(const std::filesystem::path& file, const Report& report = {});
 
 /// The built-in scene: a torus with two UV sets under a stack of five layers in two passes. Needs no
 /// file.

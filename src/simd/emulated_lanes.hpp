@@ -117,11 +117,17 @@ select(const EmulatedMask& m, const EmulatedLanes<Value, Tag>& a, const Emulated
   a.lane[i] = x;
   return a;
 }
-/// Whether all lanes hold the same index; `value` is then that.
-[[nodiscard]] constexpr bool same_in_all(const EmulatedIndex& a, std::int32_t& value) {
-  value = a.lane[0];
-  for (const std::int32_t i : a.lane)
-    if (i != value) return false;
+/// Whether an index is the same in all lanes that are active, and what it is there: 0 where none is.
+[[nodiscard]] constexpr bool same_in_all(const EmulatedIndex& a, const EmulatedMask& active,
+                                         std::int32_t& value) {
+  value = 0;
+  bool met = false;
+  for (int i = 0; i < emulated_width; ++i) {
+    if (!active.lane[i]) continue;
+    if (met && a.lane[i] != value) return false;
+    value = a.lane[i];
+    met = true;
+  }
   return true;
 }
 /// Truncates; saturates; NaN gives 0.

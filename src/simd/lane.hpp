@@ -1,9 +1,12 @@
 #pragma once
 
-/// Single lanes of a scalar, and what all its lanes have in common: for lookups in data structures and
-/// for arrays of lanes. A pack supplies these in its own namespace and specialises `lane_count`.
+/// What lanes have to do with each other and with memory beyond the core's needs. A pack supplies `lane`,
+/// `with_lane` and `same_in_all` in its own namespace, may supply a faster `gather_pair`, and specialises
+/// `lane_count` and `LaneArrays`.
 
 #include <surfgrad/scalar.hpp>
+
+#include <array>
 
 namespace surfgrad {
 
@@ -23,12 +26,6 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] constexpr T with_lane(T, int, T x) {
   return x;
-}
-
-/// Whether all lanes hold the same index; `value` is then that.
-[[nodiscard]] constexpr bool same_in_all(std::int32_t a, std::int32_t& value) {
-  value = a;
-  return true;
 }
 
 /// How lanes go to and from arrays. A pack specialises it.
@@ -55,6 +52,18 @@ template <class T>
 template <class T>
 constexpr void store(T a, value_t<T>* to) {
   LaneArrays<T>::store(a, to);
+}
+
+/// Whether an index is the same in all lanes that are active, and what it is there: 0 where none is.
+[[nodiscard]] constexpr bool same_in_all(std::int32_t a, bool active, std::int32_t& value) {
+  value = active ? a : 0;
+  return true;
+}
+
+/// The words at `index` and behind it, as gather reads them.
+template <class Index, class Mask>
+[[nodiscard]] auto gather_pair(Words words, const Index& index, const Mask& active) {
+  return std::array{gather(words, index, active), gather(words, Index(index + Index(1)), active)};
 }
 
 } // namespace surfgrad

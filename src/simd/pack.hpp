@@ -12,6 +12,8 @@
 
 #include <surfgrad/scalar.hpp>
 
+#include <array>
+
 #ifndef SURFGRAD_ISA_NAMESPACE
 #error "simd/pack.hpp serves sources that are compiled for one instruction set at a time"
 #endif
@@ -143,10 +145,31 @@ HWY_INLINE Float with_lane(Float a, int i, float x) {
   return hn::InsertLane(a.v, static_cast<std::size_t>(i), x);
 }
 
-/// Whether all lanes hold the same index; `value` is then that.
-HWY_INLINE bool same_in_all(Index a, std::int32_t& value) {
-  value = hn::GetLane(a.v);
-  return hn::AllTrue(IndexTag(), hn::Eq(a.v, hn::Set(IndexTag(), value)));
+/// The words at `index` and behind it, as gather reads them: pairs of words by half as many loads.
+HWY_INLINE std::array<Bits, 2> gather_pair(Words words, Index index, Mask m) {
+  const hn::Vec<IndexTag> at = hn::IfThenElseZero(hn::RebindMask(IndexTag(), m.v), index.v);
+  const hn::Repartition<std::int64_t, IndexTag> pair_index;
+  const hn::Repartition<std::uint64_t, IndexTag> pair;
+  const auto* base = reinterpret_cast<const std::uint64_t*>(words.data);
+  const auto pairs = [&](auto half) {
+    return hn::BitCast(BitsTag(),
+                       hn::GatherOffset(pair, base, hn::ShiftLeft<2>(hn::PromoteTo(pair_index, half))));
+  };
+  const hn::Vec<BitsTag> low = pairs(hn::LowerHalf(hn::Half<IndexTag>(), at));
+  const hn::Vec<BitsTag> high = pairs(hn::UpperHalf(hn::Half<IndexTag>(), at));
+  const hn::Mask<BitsTag> mb = hn::RebindMask(BitsTag(), m.v);
+  return {Bits(hn::IfThenElseZero(mb, hn::ConcatEven(BitsTag(), high, low))),
+          Bits(hn::IfThenElseZero(mb, hn::ConcatOdd(BitsTag(), high, low)))};
+}
+
+/// Whether an index is the same in all lanes that are active, and what it is there: 0 where none is.
+HWY_INLINE bool same_in_all(Index a, Mask active, std::int32_t& value) {
+  const hn::Mask<IndexTag> mi = hn::RebindMask(IndexTag(), active.v);
+  const std::intptr_t first = hn::FindFirstTrue(IndexTag(), mi);
+  value = first < 0    ? 0
+          : first == 0 ? hn::GetLane(a.v)
+                       : hn::ExtractLane(a.v, static_cast<std::size_t>(first));
+  return hn::AllFalse(IndexTag(), hn::And(mi, hn::Ne(a.v, hn::Set(IndexTag(), value))));
 }
 
 } // namespace surfgrad::simd::SURFGRAD_ISA_NAMESPACE

@@ -82,21 +82,30 @@ std::size_t Stage::slot_of(int uv_set) const {
   return static_cast<std::size_t>(found - slots_.begin());
 }
 
-std::uint32_t Stage::material_of(std::uint32_t surface, std::uint32_t triangle) const {
-  return surfaces_[surface].mesh->material_of_triangle[triangle];
+std::uint32_t Stage::material_of(const raster::TriangleId& id) const {
+  return surfaces_[id.surface].mesh->material_of_triangle[id.triangle];
 }
 
-bool Stage::culled(std::uint32_t surface, std::uint32_t triangle, bool front_facing) const {
-  return !front_facing &&
-         scene_.materials[material_of(surface, triangle)].back_faces == stack::BackFaces::cull;
+bool Stage::culled(const raster::TriangleId& id, bool front_facing) const {
+  return !front_facing && scene_.materials[material_of(id)].back_faces == stack::BackFaces::cull;
 }
 
-engine::Composition<double> Stage::compose(const raster::Visible& what,
-                                           const raster::Fragment<double>& fragment) const {
-  const std::uint32_t material = material_of(what.surface, what.triangle);
-  return engine::compose_reference(programs_[material], fragment,
-                                   back_faces_of(scene_.materials[material].back_faces),
-                                   placements_[what.surface]);
+engine::TileWork Stage::work_of(const raster::TriangleId& id) const {
+  const std::uint32_t material = material_of(id);
+  const raster::Surface& surface = surfaces_[id.surface];
+  engine::TileWork work;
+  work.program = &programs_[material];
+  work.placement = &placements_[id.surface];
+  work.back_faces = back_faces_of(scene_.materials[material].back_faces);
+  work.surface = &surface;
+  work.wanted.object_position = work.program->reads_object_position();
+  work.wanted.normal_derivatives = work.program->reads_normal_derivatives();
+  work.wanted.slots = static_cast<int>(surface.slots.size());
+  for (std::size_t s = 0; s < surface.slots.size(); ++s) {
+    work.wanted.present[s] = surface.slots[s].present;
+    work.wanted.tangents[s] = surface.slots[s].present && !surface.slots[s].tangents.empty();
+  }
+  return work;
 }
 
 } // namespace surfgrad::stage

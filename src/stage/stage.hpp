@@ -1,8 +1,8 @@
 #pragma once
 
 #include "diagnostic/report.hpp"
-#include "engine/reference.hpp"
-#include "raster/visibility.hpp"
+#include "engine/tiles.hpp"
+#include "raster/tile_grid.hpp"
 #include "scene/scene.hpp"
 
 #include <cstdint>
@@ -35,16 +35,13 @@ class Stage {
   /// Where a UV set that the layers or the job asked for lies in Fragment::uvs.
   [[nodiscard]] std::size_t slot_of(int uv_set) const;
 
+  [[nodiscard]] std::uint32_t material_of(const raster::TriangleId& id) const;
   /// Whether a triangle is left out on the side it shows.
-  [[nodiscard]] bool culled(std::uint32_t surface, std::uint32_t triangle, bool front_facing) const;
-
-  /// The composed normal of a fragment of this triangle.
-  [[nodiscard]] engine::Composition<double> compose(const raster::Visible& what,
-                                                    const raster::Fragment<double>& fragment) const;
+  [[nodiscard]] bool culled(const raster::TriangleId& id, bool front_facing) const;
+  /// How pixels of this triangle's surface and material are composed: all but the pixels.
+  [[nodiscard]] engine::TileWork work_of(const raster::TriangleId& id) const;
 
  private:
-  [[nodiscard]] std::uint32_t material_of(std::uint32_t surface, std::uint32_t triangle) const;
-
   const scene::Scene& scene_;
   std::vector<raster::UvSlot> slots_;
   std::vector<engine::Program> programs_; // one a material

@@ -4,16 +4,15 @@
 
 #include "image/map.hpp"
 
-#include <bit>
-
 namespace surfgrad::test {
 
+/// As double samples it: of integer files' weights and heights not rounded to float.
+inline double texel_value(const image::Map& map, int level, int x, int y, int component = 0) {
+  return map.value(level, x, y, component);
+}
+
 inline float texel(const image::Map& map, int level, int x, int y, int component) {
-  const auto first = map.level_table[3 * static_cast<std::size_t>(level) + 2];
-  const auto index =
-      static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width(level)) + static_cast<std::size_t>(x);
-  return std::bit_cast<float>(map.words[first + index * static_cast<std::size_t>(map.components) +
-                                        static_cast<std::size_t>(component)]);
+  return static_cast<float>(texel_value(map, level, x, y, component));
 }
 
 } // namespace surfgrad::test

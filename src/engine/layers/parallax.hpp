@@ -228,7 +228,7 @@ void apply(const Parallax& layer, Point<T>& point, vec3<T>&, mask_t<T>& degenera
   const vec3<T> move = select<T>(mask_t<T>(seen | (window.sound & unseen)), displaced, none);
   f.position = f.position + move;
   f.object_position = f.object_position + in_lanes<T>(point.placement.inverse_linear) * move;
-  for (raster::UvFragment<T>& uv : f.uvs)
+  for (raster::UvFragment<T>& uv : coordinates_of(f))
     uv.st = select<T>(seen, uv.st + saturated(v.x * uv.dst_dx) + saturated(v.y * uv.dst_dy), uv.st);
   raster::UvFragment<T>& own = f.uvs[static_cast<std::size_t>(layer.relief.texture.slot)];
   own.st = window.uv.st + met.way;
@@ -245,7 +245,7 @@ void apply(const Parallax& layer, Point<T>& point, vec3<T>&, mask_t<T>& degenera
   }
   const vec3<T> normal = normalize_or_zero(base.normal - surfgrad);
   const ScreenDerivatives<T> dp = footprint_on_relief(layer, point, window, base, surfgrad, normal);
-  for (raster::UvFragment<T>& uv : f.uvs) {
+  for (raster::UvFragment<T>& uv : coordinates_of(f)) {
     // Texture coordinates are those of the base point below.
     const vec3<T> grad_s = from_height_derivative(base, vec2<T>{uv.dst_dx.x, uv.dst_dy.x});
     const vec3<T> grad_t = from_height_derivative(base, vec2<T>{uv.dst_dx.y, uv.dst_dy.y});

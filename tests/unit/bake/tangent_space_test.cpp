@@ -34,7 +34,7 @@ TEST(TangentSpace, DecodesBackToTheDirectionInAnyFrame) {
     const double slope = random.magnitude(1e-3, 100);
     const vec3<double> m{slope * random.uniform(), slope * random.uniform(), 1};
     const vec3<double> direction = random.magnitude(1e-2, 1e2) * decoded(n, t, sign, m);
-    const TangentNormal got = in_vertex_frame(n, t, sign, direction);
+    const TangentNormal<double> got = in_vertex_frame(n, t, sign, direction);
     ASSERT_FALSE(got.singular || got.clamped) << k;
     EXPECT_NEAR(length(got.normal), 1, 1e-14);
     worst.add(decoded(n, t, sign, got.normal), normalize_or_zero(direction), 1e-12,
@@ -47,7 +47,7 @@ TEST(TangentSpace, DecodesBackToTheDirectionInAnyFrame) {
 TEST(TangentSpace, IsSingularWhereTheVectorsVanishOrAlign) {
   const vec3<double> n{0, 0, 1};
   const auto singular = [&](vec3<double> normal, vec3<double> tangent) {
-    const TangentNormal r = in_vertex_frame(normal, tangent, 1, {0.3, 0.2, 0.9});
+    const TangentNormal<double> r = in_vertex_frame<double>(normal, tangent, 1, {0.3, 0.2, 0.9});
     EXPECT_EQ(max_abs(r.normal - (r.singular ? n : r.normal)), 0);
     return r.singular;
   };
@@ -64,14 +64,14 @@ TEST(TangentSpace, IsSingularWhereTheVectorsVanishOrAlign) {
 TEST(TangentSpace, ClampsWhatLiesBelowTheSurfaceToTheSteepestSlopeInItsDirection) {
   const vec3<double> n{0, 0, 1};
   const vec3<double> t{1, 0, 0};
-  const auto solved = [&](vec3<double> direction) { return in_vertex_frame(n, t, 1, direction); };
+  const auto solved = [&](vec3<double> direction) { return in_vertex_frame(n, t, 1.0, direction); };
   for (const vec3<double>& d : {vec3<double>{0.6, -0.3, -0.4}, {0.6, -0.3, 0}, {0.6, -0.3, 0.001}}) {
-    const TangentNormal r = solved(d);
+    const TangentNormal<double> r = solved(d);
     EXPECT_TRUE(r.clamped);
     EXPECT_FALSE(r.singular);
     EXPECT_LT(max_abs(r.normal - normalize_or_zero(vec3<double>{0.6, -0.3, 0.6 / 128})), 1e-15);
   }
-  const TangentNormal inward = solved({0, 0, -1}); // no direction to prefer
+  const TangentNormal<double> inward = solved({0, 0, -1}); // no direction to prefer
   EXPECT_TRUE(inward.clamped);
   EXPECT_EQ(inward.normal.z, 1);
   for (const vec3<double>& none : {vec3<double>{0, 0, 0}, {NAN, NAN, NAN}}) {

@@ -24,14 +24,14 @@ double largest_difference(const mesh::TriangleMesh& mesh, const mat3<double>& li
   const std::vector<raster::Surface> surfaces{
       raster::place_mesh(mesh, surfgrad::test::affine(linear), {0, 0, 0}, {{0, true}})};
   constexpr int size = 60;
-  const raster::VisibilityBuffer layout = raster::lay_out_in_uv(surfaces, 0, size, size, nullptr);
+  const raster::VisibilityBuffer layout = raster::see(surfaces, raster::Projection::texture(0, size, size), size, size);
   double largest = 0;
   int compared = 0;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       if (layout.at(x, y).surface == raster::Visible::none) continue;
       const auto t = layout.at(x, y).triangle;
-      auto f = raster::make_fragment(surfaces[0], t, raster::uv_planes(surfaces[0], 0, t, size, size),
+      auto f = raster::make_fragment(surfaces[0], t, raster::Projection::texture(0, size, size).planes(surfaces[0], t),
                                      x + 0.5, y + 0.5);
       f.front_facing = true;
       const auto a = composed(vertex, f, BackFaces::same, linear);

@@ -144,7 +144,7 @@ std::vector<Seen> Body::seen(const KindCase& kind, const View& view, double scal
     for (std::uint32_t triangle = static_cast<std::uint32_t>(2 * side); triangle < 2u * side + 2;
          ++triangle) {
       const raster::TrianglePlanes planes =
-          raster::screen_planes(surface, triangle, as_projection(projection));
+          raster::Projection::camera(as_projection(projection), 1e-3).planes(surface, triangle);
       if (planes.degenerate()) continue;
       for (int k = 0; k < 4; ++k) {
         const std::array<double, 3> weights{0.2 + 0.1 * k, 0.6 - 0.15 * k, 0.2 + 0.05 * k};

@@ -94,6 +94,30 @@ TEST(MapLibrary, RefusesImagesWithTooFewChannels) {
   }
 }
 
+TEST(MapLibrary, RefusesImagesWhoseMapsCannotBeAddressed) {
+  const auto refusal = [](int width, int height, const auto& ask) -> std::string {
+    image::Image image; // refused before a texel is read
+    image.width = width;
+    image.height = height;
+    image.channels = 3;
+    MapLibrary maps([&](const std::filesystem::path&) -> const image::Image& { return image; }, "s.json");
+    try {
+      ask(maps);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto slopes = [](MapLibrary& maps) { (void)maps.slopes(file_of("n.png"), automatic, up); };
+  const auto relief = [](MapLibrary& maps) { (void)maps.relief(file_of("n.png"), stack::MaskChannel::r); };
+  EXPECT_EQ(refusal(5'000'000, 1, slopes), "n.png: (named by s.json:7: layers[1].map): is 5000000x1; "
+                                           "expected at most 4194304 texels a side");
+  EXPECT_EQ(refusal(1, 2'000'000, relief), "n.png: (named by s.json:7: layers[1].map): is 1x2000000; "
+                                           "expected at most 1048576 texels a side");
+  EXPECT_EQ(refusal(40'000, 40'000, slopes), "n.png: (named by s.json:7: layers[1].map): is 40000x40000; "
+                                             "with its mip levels that is more than 2147483647 numbers");
+}
+
 TEST(MapLibrary, MakesCubeMapsOfOneFileOrSixAndSaysWhichFaceDoesNotFit) {
   Random random(173);
   std::map<std::filesystem::path, image::Image> images;

@@ -23,7 +23,8 @@ struct ParallaxFrame : ::testing::Test {
   Plane plane{};
 
   void SetUp() override {
-    lab.add("heights", surfgrad::test::random_image(random, 32, 16, 1));
+    // A float file: of these the relief and the height map hold the very same numbers.
+    lab.add("heights", surfgrad::test::random_image(random, 32, 16, 1, image::Depth::float32));
     lab.add("ramp", test::ramp_image());
     lab.add("normals", surfgrad::test::random_normal_map(random, 16, 16, 0.5));
     lab.add("tilted", surfgrad::test::constant_image(1, 1, {0.7, 0.35, 0.9}));

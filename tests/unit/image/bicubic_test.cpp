@@ -52,7 +52,7 @@ BicubicSample<double> by_definition(const Map& map, vec2<double> st, Wraps wrap)
   for (long long j = std::llround(y) - 3; j <= std::llround(y) + 3; ++j)
     for (long long i = std::llround(x) - 3; i <= std::llround(x) + 3; ++i) {
       const double h =
-          test::texel(map, 0, folded(i, map.width(), wrap.s), folded(j, map.height(), wrap.t), 0);
+          test::texel_value(map, 0, folded(i, map.width(), wrap.s), folded(j, map.height(), wrap.t));
       const double u = x - static_cast<double>(i);
       const double v = y - static_cast<double>(j);
       sum.value += h * bump(u) * bump(v);

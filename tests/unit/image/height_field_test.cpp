@@ -187,9 +187,9 @@ TEST(HeightField, EveryNodeHoldsTheLargestHeightOfItsCells) {
 }
 
 TEST(HeightField, TakesTheMemoryItStates) {
-  const HeightField field = make_height_field(make_channel_map(make_image(256, 256, 1, Depth::float32), 0));
+  const HeightField field = make_height_field(make_channel_map(make_image(1024, 1024, 1, Depth::float32), 0));
   const double words = static_cast<double>(field.map.words.size() + field.maxima.size());
-  EXPECT_NEAR(4 * words / (256 * 256), 7.1, 0.05);
+  EXPECT_NEAR(4 * words / (1024 * 1024), 7.1, 0.05);
 }
 
 template <class T>
@@ -384,7 +384,7 @@ TYPED_TEST(HeightMarch, EndsWithinItsBoundForAnyInput) {
 TYPED_TEST(HeightMarch, PassesALongPlainInFewSteps) {
   using T = TypeParam;
   // One row of peaks in a wide plain, and a ray beside it over 25 repetitions.
-  Image image = make_image(256, 256, 1, Depth::float32);
+  Image image = make_image(1024, 1024, 1, Depth::float32);
   for (int x = 0; x < 256; x += 16) image.at(x, 0, 0) = 1;
   const HeightField field = make_height_field(make_channel_map(image, 0));
   const auto found = crossing<T>(field, {}, {T(0.2), T(128.5 / 256)}, {T(25), T(0)});

@@ -1,8 +1,7 @@
 // A pack of lanes samples as each of its lanes would alone, bit for bit.
 
-#include "image/sampler.hpp"
+#include "filter_definition.hpp"
 #include "simd/emulated_lanes.hpp"
-#include "support/images.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,40 +28,64 @@ float coordinate(test::Random& random) {
   }
 }
 
-TEST(SamplerLanes, EqualOneLaneForEveryWrapAndFilter) {
+/// Lanes as neighbouring pixels have them, of one mip level, or of any.
+EmulatedFloat levels(test::Random& random, bool alike) {
+  EmulatedFloat lod{};
+  const double level = random.integer(3);
+  for (float& lane : lod.lane)
+    lane = static_cast<float>(alike ? level + random.uniform(0, 0.99) : random.uniform(-1, 5));
+  // A LOD that is a level has no second one, whatever its neighbours have.
+  if (random.integer(2) == 0) lod.lane[3] = alike ? static_cast<float>(level) : 1.0f;
+  return lod;
+}
+
+TEST(SamplerLanes, EqualOneLaneForEveryFormatWrapAndFilter) {
   constexpr std::uint64_t seed = 41;
   SCOPED_TRACE(seed);
   test::Random random(seed);
   long compared = 0;
   for (const int width : {1, 7, 16})
-    for (const int height : {1, 4}) {
-      const Map map =
-          make_slope_map(test::random_normal_map(random, width, height), NormalChannels::xyz, true).map;
-      for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
-        for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
-          for (int k = 0; k < 100; ++k) {
-            vec2<EmulatedFloat> st{};
-            EmulatedFloat lod{};
-            EmulatedMask active{};
-            for (int i = 0; i < emulated_width; ++i) {
-              st.x.lane[i] = coordinate(random);
-              st.y.lane[i] = coordinate(random);
-              lod.lane[i] = static_cast<float>(random.uniform(-1, 5));
-              active.lane[i] = random.integer(4) != 0;
-            }
-            const auto pack = sample<2, EmulatedFloat>(map, st, lod, {wrap, wrap}, filter, active);
-            for (int i = 0; i < emulated_width; ++i) {
-              const auto one = sample<2, float>(map, {st.x.lane[i], st.y.lane[i]}, lod.lane[i], {wrap, wrap},
-                                                filter, active.lane[i]);
-              for (std::size_t c = 0; c < 2; ++c, ++compared) {
-                ASSERT_EQ(std::bit_cast<std::uint32_t>(pack[c].lane[i]), std::bit_cast<std::uint32_t>(one[c]))
-                    << "lane " << i << " case " << k;
-                ASSERT_TRUE(active.lane[i] || one[c] == 0);
+    for (const int height : {1, 4})
+      for (const Map& map : test::maps_of_all_formats(random, width, height))
+        for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+          for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
+            for (int k = 0; k < 60; ++k) {
+              vec2<EmulatedFloat> st{};
+              EmulatedMask active{};
+              for (int i = 0; i < emulated_width; ++i) {
+                st.x.lane[i] = coordinate(random);
+                st.y.lane[i] = coordinate(random);
+                active.lane[i] = random.integer(4) != 0;
+              }
+              const EmulatedFloat lod = levels(random, k % 2 == 0);
+              const auto pack = test::sampled<EmulatedFloat>(map, st, lod, {wrap, wrap}, filter, active);
+              for (int i = 0; i < emulated_width; ++i) {
+                const auto one = test::sampled<float>(map, {st.x.lane[i], st.y.lane[i]}, lod.lane[i],
+                                                      {wrap, wrap}, filter, active.lane[i]);
+                for (std::size_t c = 0; c < one.size(); ++c, ++compared) {
+                  ASSERT_EQ(std::bit_cast<std::uint32_t>(pack[c].lane[i]),
+                            std::bit_cast<std::uint32_t>(one[c]))
+                      << "lane " << i << " case " << k;
+                  ASSERT_TRUE(active.lane[i] || one[c] == 0);
+                }
               }
             }
-          }
-    }
   EXPECT_GT(compared, 0);
+}
+
+TEST(SamplerLanes, TellWhetherAllThatAreActiveAgree) {
+  simd::EmulatedIndex index(7);
+  EmulatedMask active(true);
+  std::int32_t value = -1;
+  EXPECT_TRUE(same_in_all(index, active, value));
+  EXPECT_EQ(value, 7);
+  index.lane[5] = 6;
+  EXPECT_FALSE(same_in_all(index, active, value));
+  active.lane[5] = false;
+  EXPECT_TRUE(same_in_all(index, active, value));
+  EXPECT_EQ(value, 7);
+  EXPECT_TRUE(same_in_all(index, EmulatedMask(false), value));
+  EXPECT_EQ(value, 0);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "diagnostic/error.hpp"
 #include "io/file.hpp"
 #include "io/image_file.hpp"
+#include "support/file_size_limit.hpp"
 #include "support/random.hpp"
 
 #include <gmock/gmock.h>
@@ -8,7 +9,6 @@
 
 #include <bit>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -17,7 +17,6 @@
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 namespace fs = std::filesystem;
@@ -191,26 +190,6 @@ TEST_F(ImageOutput, OnlyRegularFilesAreReplaced) {
   EXPECT_EQ(entries(), 1);
 }
 
-/// Lets no file grow past a size while it lives, as a full disk would.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
- private:
-  void (*old_handler_)(int);
-  rlimit old_{};
-};
-
 TEST_F(ImageOutput, FailedWriteLeavesTheOldFileAndNothingElse) {
   const std::vector<std::byte> old_content(10, std::byte{1});
   io::write_file(folder / "a.bin", old_content);
@@ -219,7 +198,7 @@ TEST_F(ImageOutput, FailedWriteLeavesTheOldFileAndNothingElse) {
     const std::vector<std::byte> content(size, std::byte{2});
     std::string said;
     {
-      const FileSizeLimit limit(1000);
+      const test::FileSizeLimit limit(1000);
       said = refusal<MachineError>([&] { io::write_file(folder / "a.bin", content); });
     }
     EXPECT_THAT(said, HasSubstr("a.bin: cannot write"));

@@ -133,10 +133,9 @@ TEST(Coverage, OfASquareOverTheRasterIsEveryPixel) {
   const mesh::TriangleMesh mesh = test::plane(7);
   const std::vector<Surface> surfaces{
       place_mesh(mesh, test::affine(test::scaling({1, 1, 1})), {0, 0, 0}, {{0, false}})};
-  std::int64_t overlapping = -1;
-  const VisibilityBuffer layout = lay_out_in_uv(surfaces, 0, 61, 130, &overlapping);
+  const VisibilityBuffer layout = see(surfaces, Projection::texture(0, 61, 130), 61, 130);
   for (const Visible& v : layout.pixels) EXPECT_EQ(v.surface, 0u);
-  EXPECT_EQ(overlapping, 0);
+  EXPECT_EQ(layout.overlapping, 0);
 }
 
 } // namespace

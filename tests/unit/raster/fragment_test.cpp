@@ -31,7 +31,7 @@ TEST(Fragment, LiesOnTheRayAndChangesAsItsNeighbours) {
     test::append_triangle(mesh, c + offsets.x, c + offsets.y, c + offsets.z);
     for (vec2<float>& st : mesh.uv_sets[0]) st = test::narrow(random.vector2(-3, 3));
     const Surface s = place_mesh(mesh, identity, {0, 0, 0}, {{0, false}});
-    const TrianglePlanes planes = screen_planes(s, 0, projection);
+    const TrianglePlanes planes = Projection::camera(projection, 1e-3).planes(s, 0);
     const double x = random.uniform(20, 44);
     const double y = random.uniform(20, 44);
     if (!planes.covers(x, y)) continue;
@@ -58,13 +58,13 @@ TEST(Fragment, OfATextureHasTheCoordinateOfItsTexel) {
   const std::vector<Surface> surfaces{place_mesh(mesh, identity, {0, 0, 0}, {{0, true}})};
   constexpr int width = 50;
   constexpr int height = 30;
-  const VisibilityBuffer layout = lay_out_in_uv(surfaces, 0, width, height, nullptr);
+  const VisibilityBuffer layout = see(surfaces, Projection::texture(0, width, height), width, height);
   test::Worst worst("coordinate and rates at texel centres");
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::uint32_t triangle = layout.at(x, y).triangle;
       const Fragment<double> f = make_fragment(
-          surfaces[0], triangle, uv_planes(surfaces[0], 0, triangle, width, height), x + 0.5, y + 0.5);
+          surfaces[0], triangle, Projection::texture(0, width, height).planes(surfaces[0], triangle), x + 0.5, y + 0.5);
       const auto& uv = f.uvs[0];
       worst.add(uv.st, {(x + 0.5) / width, (y + 0.5) / height}, 1e-13,
                 y * width + x); // rounding of UVs of order 1
@@ -86,7 +86,7 @@ TEST(Fragment, WithoutAnInterpolatedNormalTakesTheTrianglesOutwardOne) {
         mesh.normals[mesh.triangles[0][2]] = {-0.6f, -0.8f, 0};
       }
       const Surface bare = place_mesh(mesh, test::affine(linear), {0, 0, 0}, {{0, false}});
-      const TrianglePlanes planes = uv_planes(bare, 0, 0, 10, 10);
+      const TrianglePlanes planes = Projection::texture(0, 10, 10).planes(bare, 0);
       const Fragment<double> f = make_fragment(bare, 0, planes, 5, 5);
       EXPECT_TRUE(f.normal_is_absent);
       EXPECT_LT(max_abs(normalize_or_zero(f.normal) - whole.normals[0]), 1e-12);
@@ -102,7 +102,7 @@ TEST(Fragment, WithoutAnInterpolatedNormalIsBumpedAlikeAtEveryScale) {
     const Surface whole = place_mesh(mesh, placement, {0, 0, 0}, {{0, true}});
     for (vec3<float>& n : mesh.normals) n = {0, 0, 0};
     const Surface bare = place_mesh(mesh, placement, {0, 0, 0}, {{0, false}});
-    const TrianglePlanes planes = uv_planes(bare, 0, 0, 10, 10);
+    const TrianglePlanes planes = Projection::texture(0, 10, 10).planes(bare, 0);
     const UvFragment<double> uv = make_fragment(whole, 0, planes, 5, 5).uvs[0];
     const Fragment<double> f = make_fragment(bare, 0, planes, 5, 5);
     EXPECT_TRUE(f.normal_is_absent);

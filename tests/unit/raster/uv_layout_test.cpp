@@ -27,10 +27,9 @@ TEST(UvLayout, CoversMirroredIslandsLikeOthers) {
   add_island(mesh, {0, 0}, {0.5, 1});
   add_island(mesh, {1, 0}, {0.5, 1}); // mirrored, meets the first at s = 1/2
   const std::vector<Surface> surfaces{place_mesh(mesh, identity, {0, 0, 0}, {{0, false}})};
-  std::int64_t overlapping = -1;
   for (const int size : {8, 9, 31}) { // with 9 and 31 texel centres lie on the seam
-    const VisibilityBuffer layout = lay_out_in_uv(surfaces, 0, size, size, &overlapping);
-    EXPECT_EQ(overlapping, 0);
+    const VisibilityBuffer layout = see(surfaces, Projection::texture(0, size, size), size, size);
+    EXPECT_EQ(layout.overlapping, 0);
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x) {
         ASSERT_EQ(layout.at(x, y).surface, 0u) << x << ", " << y << " of " << size;
@@ -48,9 +47,8 @@ TEST(UvLayout, CountsATexelUnderSeveralTrianglesOnceAndKeepsTheFirst) {
   add_island(second, {0.5, 0}, {0.25, 0.5}); // again, mirrored
   const std::vector<Surface> surfaces{place_mesh(first, identity, {0, 0, 0}, {{0, false}}),
                                       place_mesh(second, identity, {0, 0, 0}, {{0, false}})};
-  std::int64_t overlapping = -1;
-  const VisibilityBuffer layout = lay_out_in_uv(surfaces, 0, 16, 16, &overlapping);
-  EXPECT_EQ(overlapping, 4 * 8);
+  const VisibilityBuffer layout = see(surfaces, Projection::texture(0, 16, 16), 16, 16);
+  EXPECT_EQ(layout.overlapping, 4 * 8);
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) {
       const bool inside = x < 8 && y < 8;
@@ -65,7 +63,7 @@ TEST(UvLayout, IgnoresWhatLiesOutsideTheUnitSquareAndHasNoArea) {
   add_island(mesh, {-3, 0}, {0, 1});
   add_island(mesh, {0.5, 0}, {0.5, 1}); // collapsed
   const std::vector<Surface> surfaces{place_mesh(mesh, identity, {0, 0, 0}, {{0, false}})};
-  for (const Visible& v : lay_out_in_uv(surfaces, 0, 9, 9, nullptr).pixels)
+  for (const Visible& v : see(surfaces, Projection::texture(0, 9, 9), 9, 9).pixels)
     EXPECT_EQ(v.surface, Visible::none);
 }
 

@@ -66,7 +66,7 @@ TEST(Visibility, IsTheNearestTriangleOnTheRayBeyondTheNearLimit) {
   const mesh::TriangleMesh two = soup(random, 40);
   const std::vector<Surface> surfaces{placed(one), placed(two)};
   for (const double near : {1e-6, 0.5, 2.0}) {
-    const VisibilityBuffer seen = see_from_camera(surfaces, projection, near, width, height, {});
+    const VisibilityBuffer seen = see(surfaces, Projection::camera(projection, near), width, height);
     int compared = 0;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
@@ -84,7 +84,7 @@ TEST(Visibility, AtEqualDepthGoesToTheEarlierSurfaceAndTriangle) {
   mesh::TriangleMesh twice;
   for (int i = 0; i < 2; ++i) test::append_triangle(twice, {-1, -1, -2}, {1, -1, -2}, {0, 1, -2});
   const std::vector<Surface> surfaces{placed(twice), placed(twice)};
-  const VisibilityBuffer seen = see_from_camera(surfaces, projection, 1e-3, width, height, {});
+  const VisibilityBuffer seen = see(surfaces, Projection::camera(projection, 1e-3), width, height);
   int covered = 0;
   for (const Visible& v : seen.pixels) {
     if (v.surface == Visible::none) continue;
@@ -100,11 +100,9 @@ TEST(Visibility, LeavesOutWhatIsSkippedAndTellsSides) {
   test::append_triangle(mesh, {-1, -1, -2}, {1, -1, -2}, {0, 1, -2}); // faces the eye
   test::append_triangle(mesh, {-1, -1, -1}, {0, 1, -1}, {1, -1, -1}); // nearer, shows its back
   const std::vector<Surface> surfaces{placed(mesh)};
-  const auto seen = see_from_camera(surfaces, projection, 1e-3, width, height,
-                                    [](std::uint32_t, std::uint32_t, bool front) { return !front; });
+  const auto seen = see(surfaces, Projection::camera(projection, 1e-3), width, height, [](const TriangleId&, bool front) { return !front; });
   EXPECT_EQ(seen.at(width / 2, height / 2).triangle, 0u);
-  const auto other = see_from_camera(surfaces, projection, 1e-3, width, height,
-                                     [](std::uint32_t, std::uint32_t, bool front) { return front; });
+  const auto other = see(surfaces, Projection::camera(projection, 1e-3), width, height, [](const TriangleId&, bool front) { return front; });
   EXPECT_EQ(other.at(width / 2, height / 2).triangle, 1u);
 }
 
@@ -114,7 +112,7 @@ TEST(Visibility, DoesNotDependOnThreads) {
   const std::vector<Surface> surfaces{placed(mesh)};
   const auto run = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return see_from_camera(surfaces, projection, 1e-3, width, height, {});
+    return see(surfaces, Projection::camera(projection, 1e-3), width, height);
   };
   const VisibilityBuffer one = run(1);
   const VisibilityBuffer many = run(4);

@@ -120,14 +120,15 @@ TEST(Aov, BackFacesShowWhatTheirModeSays) {
 }
 
 TEST(Aov, IsEncodedForIntegerFilesWithinItsRange) {
-  Picture picture{image::make_image(2, 1, 3, image::Depth::float32)};
+  Picture picture;
+  picture.image = image::make_image(2, 1, 3, image::Depth::float32);
   picture.image.texels = {-1, 0, 1, 2.25f, -0.25f, 0};
-  EXPECT_EQ(encoded_for_display(picture, Aov::normal).texels[0], 0);
-  EXPECT_EQ(encoded_for_display(picture, Aov::normal).texels[1], 0.5f);
-  EXPECT_EQ(encoded_for_display(picture, Aov::normal).texels[2], 1);
-  EXPECT_EQ(encoded_for_display(picture, Aov::uv).texels[3], 0.25f);
-  EXPECT_EQ(encoded_for_display(picture, Aov::uv).texels[4], 0.75f);
-  EXPECT_EQ(encoded_for_display(picture, Aov::beauty).texels, picture.image.texels);
+  EXPECT_EQ(encoded_for_display(picture.image, Aov::normal).texels[0], 0);
+  EXPECT_EQ(encoded_for_display(picture.image, Aov::normal).texels[1], 0.5f);
+  EXPECT_EQ(encoded_for_display(picture.image, Aov::normal).texels[2], 1);
+  EXPECT_EQ(encoded_for_display(picture.image, Aov::uv).texels[3], 0.25f);
+  EXPECT_EQ(encoded_for_display(picture.image, Aov::uv).texels[4], 0.75f);
+  EXPECT_EQ(encoded_for_display(picture.image, Aov::beauty).texels, picture.image.texels);
 }
 
 } // namespace

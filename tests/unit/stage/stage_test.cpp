@@ -2,6 +2,8 @@
 
 #include "stage/stage.hpp"
 
+#include "engine/reference.hpp"
+
 #include "diagnostic/error.hpp"
 #include "mesh/mikktspace.hpp"
 #include "support/images.hpp"
@@ -31,19 +33,20 @@ scene::Scene two_materials() {
 TEST(Stage, CullsBackFacesOfTheMaterialsThatSaySo) {
   const scene::Scene scene = two_materials();
   const Stage stage(scene, {0, 0, 0}, {}, {});
-  EXPECT_FALSE(stage.culled(0, 0, true));
-  EXPECT_FALSE(stage.culled(0, 0, false));
-  EXPECT_FALSE(stage.culled(0, 1, true));
-  EXPECT_TRUE(stage.culled(0, 1, false));
+  EXPECT_FALSE(stage.culled({0, 0}, true));
+  EXPECT_FALSE(stage.culled({0, 0}, false));
+  EXPECT_FALSE(stage.culled({0, 1}, true));
+  EXPECT_TRUE(stage.culled({0, 1}, false));
 }
 
 TEST(Stage, RunsEachTrianglesOwnLayers) {
   const scene::Scene scene = two_materials();
   const Stage stage(scene, {0, 0, 0}, {}, {});
   for (const std::uint32_t t : {0u, 1u}) {
-    const auto planes = raster::uv_planes(stage.surfaces()[0], stage.slot_of(0), t, 9, 9);
-    auto f = raster::make_fragment(stage.surfaces()[0], t, planes, 4.5, 4.5);
-    const auto c = stage.compose({0, t}, f);
+    const auto planes = raster::Projection::texture(stage.slot_of(0), 9, 9).planes(stage.surfaces()[0], t);
+    const auto f = raster::make_fragment(stage.surfaces()[0], t, planes, 4.5, 4.5);
+    const engine::TileWork work = stage.work_of({0, t});
+    const auto c = engine::compose_reference(*work.program, f, work.back_faces, *work.placement);
     EXPECT_EQ(max_abs(c.normal - vec3<double>{0, 0, 1}) > 0.1, t == 1);
   }
 }

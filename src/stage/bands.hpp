@@ -1,0 +1,26 @@
+#pragma once
+
+#include "diagnostic/report.hpp"
+#include "image/image.hpp"
+
+#include <functional>
+
+namespace surfgrad::stage {
+
+/// Receives a picture in bands of rows from its top to its bottom, each an image of its own (row 0 its
+/// lowest). Never called by two threads at a time.
+using BandSink = std::function<void(const image::Image& band)>;
+
+/// Puts a picture together again. The picture must have its size already.
+[[nodiscard]] BandSink into(image::Image& picture);
+
+/// Makes a picture's bands in parallel and hands them over in order: whoever takes them works while others
+/// are made. So many are under way at a time that every thread has one; memory is theirs.
+///
+/// count      bands; 0 is the lowest
+/// make       makes a band: (band) -> image; any thread
+/// Results do not depend on the number of threads. Throws Cancelled when the progress callback asks to stop.
+void for_each_band(int count, const Report& report, const std::function<image::Image(int)>& make,
+                   const BandSink& take);
+
+} // namespace surfgrad::stage
