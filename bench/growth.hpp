@@ -11,8 +11,7 @@ void race_threads(const Request& request);
 void race_sizes(const Request& request);
 
 /// What the program does as a child of itself: bakes on one thread whenever it is told to, and answers
-/// with processor seconds, wall seconds, and the bytes of the process before the bake, at its peak, and of
-/// the result.
+/// with processor seconds, wall seconds, and the bytes of the process before the bake and at its peak.
 void bake_when_told(int size, int map_size);
 
 } // namespace surfgrad::bench

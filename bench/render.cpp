@@ -21,6 +21,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -89,23 +90,13 @@ scene::Scene make_scene() {
 }
 
 #if SURFGRAD_BENCH_LAVAPIPE
-/// Share of light that the glaze mirrors, at cosines k / 64: of a white sky the shading returns it and what
-/// the body makes of the rest.
-void fill_mirrored(PeerLight& light) {
-  image::Image white = image::make_image(4, 2, 3, image::Depth::float32);
-  for (float& v : white.texels) v = 1;
-  const render::Shading shading({.sun = {}, .sky = 1, .environment = {}}, &white);
-  float share[66];
+/// Share of a white sky that the glaze mirrors, at cosines k / 64.
+void fill_mirrored(PeerLight& light, const stack::Lights& lights) {
+  const render::Shading shading(lights, nullptr);
   for (int k = 0; k <= 64; ++k) {
-    const double c = k / 64.0;
-    const vec3<double> to_viewer{std::sqrt(1 - c * c), 0, c};
-    constexpr double red = 0.37; // of the body
-    share[k] = static_cast<float>((shading({0, 0, 1}, to_viewer).x - red) / (1 - red));
-  }
-  share[65] = share[64];
-  for (int k = 0; k <= 64; ++k) {
-    light.mirrored[k][0] = share[k];
-    light.mirrored[k][1] = share[k + 1] - share[k];
+    const double share = shading.mirrored(k / 64.0);
+    light.mirrored[k][0] = static_cast<float>(share);
+    light.mirrored[k][1] = static_cast<float>(shading.mirrored(std::min(k + 1, 64) / 64.0) - share);
   }
 }
 
@@ -139,7 +130,7 @@ PeerScene peer_scene(const scene::Scene& scene, const std::array<SlopePyramid, 3
   for (std::size_t k = 0; k < 3; ++k) peer.maps[k] = &maps[k];
   const vec3<float> sun = narrow(normalize_or_zero(scene.lights.sun->direction));
   peer.light = {{sun.x, sun.y, sun.z, static_cast<float>(scene.lights.sun->strength)}, {}};
-  fill_mirrored(peer.light);
+  fill_mirrored(peer.light, scene.lights);
   return peer;
 }
 
