@@ -1,0 +1,75 @@
+#include "kernels.hpp"
+
+#include "simd/object_scalar.hpp"
+
+#include <surfgrad/gradient.hpp>
+#include <surfgrad/resolve.hpp>
+
+namespace surfgrad::bench::SURFGRAD_ISA_NAMESPACE {
+namespace {
+
+using T = simd::ObjectScalar;
+using V2 = vec2<T>;
+using V3 = vec3<T>;
+
+#if SURFGRAD_ISA_IS_PLAIN
+void stream(T a, float* to) { store(a, to); }
+#else
+HWY_INLINE void stream(T a, float* to) {
+  hwy::HWY_NAMESPACE::Stream(a.v, simd::SURFGRAD_ISA_NAMESPACE::FloatTag(), to);
+}
+#endif
+
+template <class Pixel>
+void for_each_pack(const Planes& planes, int begin, int end, Stores stores, const Pixel& pixel) {
+  for (int i = begin; i < end; i += lane_count<T>) {
+    const V3 n = pixel([&](int plane) { return load<T>(planes.in[static_cast<std::size_t>(plane)] + i); });
+    if (stores == Stores::streaming) {
+      stream(n.x, planes.out[0] + i);
+      stream(n.y, planes.out[1] + i);
+      stream(n.z, planes.out[2] + i);
+    } else {
+      store(n.x, planes.out[0] + i);
+      store(n.y, planes.out[1] + i);
+      store(n.z, planes.out[2] + i);
+    }
+  }
+}
+
+} // namespace
+
+void compose_planes(const Planes& planes, int begin, int end, Stores stores) {
+  for_each_pack(planes, begin, end, stores, [](const auto& in) {
+    const auto frame = make_frame(V3{in(0), in(1), in(2)}, V3{in(3), in(4), in(5)}, V3{in(6), in(7), in(8)});
+    const auto layer = [&](int k) {
+      const int at = 9 + 4 * k;
+      const auto basis = tangent_basis(frame, V2{in(at), in(at + 1)}, V2{in(at + 2), in(at + 3)});
+      return from_tbn(V2{in(21 + 2 * k), in(22 + 2 * k)}, basis.tangent, basis.bitangent);
+    };
+    return resolve_normal(frame, layer(0) + layer(1) + layer(2));
+  });
+}
+
+void sum_planes(const Planes& planes, int begin, int end, Stores stores) {
+  static_assert(planes_in == 9 * planes_out);
+  for_each_pack(planes, begin, end, stores, [](const auto& in) {
+    const auto sum_of_nine = [&](int first) {
+      T sum = in(first);
+      for (int k = 1; k < 9; ++k) sum = sum + in(first + k);
+      return sum;
+    };
+    return V3{sum_of_nine(0), sum_of_nine(9), sum_of_nine(18)};
+  });
+}
+
+void sample_map(const image::Map& map, const Lookups& lookups, image::Filter filter, int begin, int end) {
+  const T one = T(value_t<T>(1));
+  for (int i = begin; i < end; i += lane_count<T>) {
+    const V2 st{load<T>(lookups.s + i), load<T>(lookups.t + i)};
+    const auto texel = image::sample<2>(map, st, load<T>(lookups.lod + i), {}, filter, mask_t<T>(one == one));
+    store(texel[0], lookups.first + i);
+    store(texel[1], lookups.second + i);
+  }
+}
+
+} // namespace surfgrad::bench::SURFGRAD_ISA_NAMESPACE
