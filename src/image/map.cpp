@@ -4,6 +4,7 @@
 #include "image/pyramid.hpp"
 
 #include <surfgrad/derivative.hpp>
+#include <surfgrad/moments.hpp>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
@@ -99,6 +100,24 @@ SlopeMap make_encoded_map(const Image& image, NormalChannels channels, bool gree
   result.map = with_pyramid(std::move(normals), image.width, image.height, static_cast<int>(components));
   result.map.encoded = true;
   return result;
+}
+
+Map make_slope_moments(const Map& slopes) {
+  const int width = slopes.width();
+  const int height = slopes.height();
+  std::vector<float> moments(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  in_parallel(static_cast<std::size_t>(height), static_cast<std::size_t>(width), [&](std::size_t y) {
+    float* texel = &moments[3 * y * static_cast<std::size_t>(width)];
+    for (int x = 0; x < width; ++x, texel += 3) {
+      const int row = static_cast<int>(y);
+      const SlopeMoments<double> m =
+          moments_from_derivative(vec2<double>{slopes.value(0, x, row, 0), slopes.value(0, x, row, 1)});
+      texel[0] = static_cast<float>(m.square.x);
+      texel[1] = static_cast<float>(m.square.y);
+      texel[2] = static_cast<float>(m.product);
+    }
+  });
+  return with_pyramid(std::move(moments), width, height, 3);
 }
 
 Map make_derivative_map(const Image& image, double range, bool green_up, NeutralCode neutral) {

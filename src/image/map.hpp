@@ -88,6 +88,12 @@ struct SlopeMap {
 /// here to show what others show.
 [[nodiscard]] SlopeMap make_encoded_map(const Image& image, NormalChannels channels, bool green_up);
 
+/// Second moments of a map of slopes, beside its means: components (ds^2, dt^2, ds * dt), each level
+/// averaging them as it averages slopes. So a sample of both is SlopeMoments of what was filtered together.
+///
+/// slopes  two components, not encoded. Its own texels are squared: level 0 has no variance.
+[[nodiscard]] Map make_slope_moments(const Map& slopes);
+
 /// Which code of an integer derivative map means flat.
 enum class NeutralCode {
   between, ///< 127.5 of 255 (32767.5 of 65535): codes span -range..range evenly, none is exactly flat
