@@ -56,6 +56,7 @@ template <Scalar T>
   const mask_t<T> no_y = abs(normal.y) < tiny;
   const mask_t<T> no_z = abs(normal.z) < tiny;
   const mask_t<T> absent = no_x & no_y & no_z;
+  if (!any(absent)) return normalize_or_zero(normal);
   // Normalise the factors first: their product would underflow for a microscopic footprint.
   const vec3<T> plane = plane_sign * cross(normalize_or_zero(dp_dx), normalize_or_zero(dp_dy));
   return normalize_or_zero(select<T>(absent, plane, normal));
@@ -154,14 +155,9 @@ template <Scalar T>
 /// source      Mikkelsen 2019, listing 16 and section 2.2
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE TangentFrame<T> mikktspace_basis(vec3<T> normal, vec3<T> tangent, T sign) {
-  // The longest component brings the length into range: |normal|^2 must not underflow.
-  const T inverse_size = reciprocal_or_zero(max_abs(normal));
-  const vec3<T> n = inverse_size * normal;
-  const T inverse_length = T(value_t<T>(1)) / sqrt(max(constant<T>(0.5), dot(n, n)));
-  const vec3<T> unit = inverse_length * n;
+  const detail::Normalized<T> n = detail::normalized(normal);
   const T one = T(value_t<T>(1));
-  return {(inverse_length * inverse_size) * tangent,
-          select(T(value_t<T>(0)) < sign, one, -one) * cross(unit, tangent)};
+  return {n.inverse_length * tangent, select(T(value_t<T>(0)) < sign, one, -one) * cross(n.unit, tangent)};
 }
 
 /// Tangent frame of any texture coordinate, made in place: no vertex tangents needed.
@@ -179,17 +175,29 @@ template <Scalar T>
                                                                  vec2<T> dst_dy) {
   const T zero = T(value_t<T>(0));
   const T one = T(value_t<T>(1));
-  // Unit rates: the determinant of a microscopic footprint must not underflow.
-  const vec2<T> a = reciprocal_or_zero(max_abs(dst_dx)) * dst_dx;
-  const vec2<T> b = reciprocal_or_zero(max_abs(dst_dy)) * dst_dy;
-  const T det = cross(a, b);
-  const mask_t<T> collapsed = !(T(epsilon_v<T>) < abs(det)); // so that NaN collapses too
+  const T size_x = max_abs(dst_dx);
+  const T size_y = max_abs(dst_dy);
+  T det = cross(dst_dx, dst_dy);
+  T area = size_x * size_y;
+  const T squares = min(size_x, size_y) * min(size_x, size_y);
+  const mask_t<T> usual = (T(detail::least_square<T>) < squares) &
+                          (max(size_x, size_y) * max(size_x, size_y) < T(detail::most_square<T>));
+  if (!all(usual)) {
+    // Unit rates: the determinant of a microscopic footprint must not underflow. Both share one scale
+    // below, or the direction would change.
+    const vec2<T> a = reciprocal_or_zero(size_x) * dst_dx;
+    const vec2<T> b = reciprocal_or_zero(size_y) * dst_dy;
+    det = select(usual, det, cross(a, b));
+    area = select(usual, area, one);
+    const T inverse_rate = select(usual, one, reciprocal_or_zero(max(size_x, size_y)));
+    dst_dx = inverse_rate * dst_dx;
+    dst_dy = inverse_rate * dst_dy;
+  }
+  const mask_t<T> collapsed = !(T(epsilon_v<T>) * area < abs(det)); // so that NaN collapses too
   const T sign = select(det < zero, -one, one);
-  // (dx/ds, dy/ds) up to the positive factor 1 / |det|, which normalisation removes. Both rates
-  // share one scale, or the direction would change.
-  const T inverse_rate = reciprocal_or_zero(max(max_abs(dst_dx), max_abs(dst_dy)));
-  const T dx_ds = sign * (inverse_rate * dst_dy.y);
-  const T dy_ds = -(sign * (inverse_rate * dst_dx.y));
+  // (dx/ds, dy/ds) up to the positive factor 1 / |det|, which normalisation removes.
+  const T dx_ds = sign * dst_dy.y;
+  const T dy_ds = -(sign * dst_dx.y);
   const vec3<T> tangent = normalize_or_zero(frame.sigma_x * dx_ds + frame.sigma_y * dy_ds);
   const vec3<T> bitangent = (sign * frame.flip_sign) * cross(frame.normal, tangent);
   const vec3<T> none{zero, zero, zero};

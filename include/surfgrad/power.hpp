@@ -2,10 +2,13 @@
 
 /// log2, exp2 and pow of any Scalar, without libm: the same bits on every machine and lane.
 ///
-/// A Scalar offers no access to exponent bits, so powers of two are split off by a ladder of
-/// selections; the series then run over a fixed, small range.
+/// Powers of two are split off first, exactly; the series then run over a fixed, small range. A Scalar offers
+/// no access to exponent bits: a ladder of selections splits them off. One that has them may supply
+/// split_exponent and split_whole, as those for float and double below.
 
 #include <surfgrad/scalar.hpp>
+
+#include <bit>
 
 namespace surfgrad {
 
@@ -52,6 +55,31 @@ SURFGRAD_HOST_DEVICE constexpr void extract_power(T& rest, T& power) {
   if constexpr (step > 1) extract_power<step / 2>(rest, power);
 }
 
+/// The integer that holds a float's bits, and where its exponent lies in it.
+template <std::floating_point V>
+using float_bits = std::conditional_t<sizeof(V) == 4, std::uint32_t, std::uint64_t>;
+template <std::floating_point V>
+inline constexpr int fraction_bits = std::numeric_limits<V>::digits - 1;
+
+/// m, a normal positive number, into [1, 2); its exponent is added to `exponent`.
+template <std::floating_point V>
+SURFGRAD_HOST_DEVICE constexpr void split_exponent(V& m, V& exponent) {
+  constexpr int bias = std::numeric_limits<V>::max_exponent - 1;
+  const auto bits = std::bit_cast<float_bits<V>>(m);
+  const auto fraction = bits & ((float_bits<V>(1) << fraction_bits<V>)-1);
+  exponent += static_cast<V>(static_cast<int>(bits >> fraction_bits<V>) - bias);
+  m = std::bit_cast<V>(fraction | (float_bits<V>(bias) << fraction_bits<V>));
+}
+
+/// rest, whose power of two is a normal number, into (-1, 1); power is multiplied by 2 to its whole part.
+template <std::floating_point V>
+SURFGRAD_HOST_DEVICE constexpr void split_whole(V& rest, V& power) {
+  constexpr int bias = std::numeric_limits<V>::max_exponent - 1;
+  const int whole = static_cast<int>(rest);
+  rest -= static_cast<V>(whole);
+  power *= std::bit_cast<V>(static_cast<float_bits<V>>(whole + bias) << fraction_bits<V>);
+}
+
 } // namespace detail
 
 /// Base-2 logarithm.
@@ -65,11 +93,15 @@ template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T log2(T a) {
   const T zero = T(value_t<T>(0));
   const T one = T(value_t<T>(1));
-  constexpr int widest = detail::single_precision<T> ? 64 : 512;
+  [[maybe_unused]] constexpr int widest = detail::single_precision<T> ? 64 : 512;
   T m = max(a, T(std::numeric_limits<value_t<T>>::min()));
   m = min(m, T(std::numeric_limits<value_t<T>>::max()));
   T exponent = zero;
-  detail::extract_exponent<widest>(m, exponent);
+  using detail::split_exponent;
+  if constexpr (requires { split_exponent(m, exponent); })
+    split_exponent(m, exponent);
+  else
+    detail::extract_exponent<widest>(m, exponent);
   // Centre the range on 1: m in [sqrt(1/2), sqrt(2)), where log2(m) = 2/ln2 * atanh((m-1)/(m+1)).
   const mask_t<T> upper = constant<T>(1.41421356237309514547) < m;
   m = select(upper, m * constant<T>(0.5), m);
@@ -94,7 +126,7 @@ template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr T exp2(T a) {
   const T zero = T(value_t<T>(0));
   const T one = T(value_t<T>(1));
-  constexpr int widest = detail::single_precision<T> ? 64 : 512;
+  [[maybe_unused]] constexpr int widest = detail::single_precision<T> ? 64 : 512;
   constexpr int lowest = std::numeric_limits<value_t<T>>::min_exponent - 1;
   constexpr int highest = std::numeric_limits<value_t<T>>::max_exponent;
   const mask_t<T> vanishes = !(T(static_cast<value_t<T>>(lowest)) < a);
@@ -102,7 +134,11 @@ template <Scalar T>
   // NaN is in both masks; the selection below lets vanishes win.
   T rest = select(vanishes | saturates, zero, a);
   T power = one;
-  detail::extract_power<widest>(rest, power);
+  using detail::split_whole;
+  if constexpr (requires { split_whole(rest, power); })
+    split_whole(rest, power);
+  else
+    detail::extract_power<widest>(rest, power);
   // rest in (-1, 1): square the exponential of half of it, so that the series converges fast.
   constexpr double half_ln2 = 0.34657359027997264311;
   const T x = rest * constant<T>(half_ln2);

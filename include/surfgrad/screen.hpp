@@ -80,7 +80,7 @@ projected_derivatives(vec3<T> grad_s, vec3<T> grad_t, vec3<T> dp_dx, vec3<T> dp_
 ///
 /// size        width and height of the map's level 0, in texels
 /// returns     may be negative (magnification); the sampler clamps it
-/// degenerate  a zero footprint gives the logarithm of the smallest normal number less a half: level 0
+/// degenerate  a zero footprint gives the logarithm of the smallest normal number: level 0
 /// error       4 eps * max(1, |lod|)
 /// source      Mikkelsen 2019, section 3: compute it from the coordinate before a parallax correction,
 ///             sample with it after
@@ -88,12 +88,12 @@ template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE T texture_lod(vec2<T> dst_dx, vec2<T> dst_dy, vec2<T> size) {
   const vec2<T> x = size * dst_dx;
   const vec2<T> y = size * dst_dy;
-  // Half the log of the squared length; the scale keeps the squares in range.
+  // The scale keeps the squares in range.
   const T scale = max(max_abs(x), max_abs(y));
   const T inverse = reciprocal_or_zero(scale);
   const vec2<T> u = inverse * x;
   const vec2<T> v = inverse * y;
-  return log2(scale) + constant<T>(0.5) * log2(max(constant<T>(0.5), max(dot(u, u), dot(v, v))));
+  return log2(scale * sqrt(max(constant<T>(0.5), max(dot(u, u), dot(v, v)))));
 }
 
 } // namespace surfgrad

@@ -133,15 +133,47 @@ template <Scalar T>
   return {saturated(v.x), saturated(v.y), saturated(v.z)};
 }
 
+namespace detail {
+
+/// Squares of what lies between these, and sums and products of two such squares' roots, stay normal numbers.
+template <Scalar T>
+inline constexpr value_t<T> least_square = std::numeric_limits<value_t<T>>::min() * value_t<T>(1 << 25);
+template <Scalar T>
+inline constexpr value_t<T> most_square = 1 / least_square<T>;
+
+/// A vector's direction and the inverse of its length; zero for a vector of subnormal components.
+template <class T>
+struct Normalized {
+  vec3<T> unit;
+  T inverse_length;
+};
+
+template <Scalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE Normalized<T> normalized(vec3<T> v) {
+  const T one = T(value_t<T>(1));
+  const T square = dot(v, v);
+  const mask_t<T> usual = (T(least_square<T>) < square) & (square < T(most_square<T>));
+  const T inverse = one / sqrt(select(usual, square, one));
+  const Normalized<T> result{inverse * v, inverse};
+  if (all(usual)) return result;
+  // The longest component brings the others into range.
+  const T inverse_size = reciprocal_or_zero(max_abs(v));
+  const vec3<T> w = inverse_size * v;
+  // One component of w is 1 to rounding, so its square sum is at least 1/2 unless v vanishes.
+  const T inverse_of_w = one / sqrt(max(constant<T>(0.5), dot(w, w)));
+  return {select<T>(usual, result.unit, inverse_of_w * w),
+          select(usual, result.inverse_length, inverse_of_w * inverse_size)};
+}
+
+} // namespace detail
+
 /// v / |v| for every magnitude, without overflow or underflow on the way.
 ///
 /// degenerate  zero, or a vector of subnormal components, gives zero. NaN propagates; Inf gives NaN.
 /// error       3 eps per component.
 template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> normalize_or_zero(vec3<T> v) {
-  const vec3<T> w = reciprocal_or_zero(max_abs(v)) * v;
-  // One component of w is 1 to rounding, so its square sum is at least 1/2 unless v vanishes.
-  return (T(value_t<T>(1)) / sqrt(max(constant<T>(0.5), dot(w, w)))) * w;
+  return detail::normalized(v).unit;
 }
 
 } // namespace surfgrad

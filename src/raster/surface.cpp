@@ -70,6 +70,7 @@ TrianglePlanes::TrianglePlanes(const std::array<vec3<double>, 3>& corners) : cor
     const vec3<double> e = cross(corners[(i + 1) % 3], corners[(i + 2) % 3]);
     edges_[i] = det > 0 ? e : -e;
   }
+  sum_ = edges_[0] + edges_[1] + edges_[2];
   scale_ = 1 / (det > 0 ? det : -det);
 }
 
@@ -119,13 +120,8 @@ TrianglePlanes::Box TrianglePlanes::box() const {
   return box;
 }
 
-double TrianglePlanes::inverse_w(double x, double y) const {
-  const vec3<double> sum = edges_[0] + edges_[1] + edges_[2];
-  return scale_ * (sum.x * x + sum.y * y + sum.z);
-}
-
 TrianglePlanes::Barycentrics TrianglePlanes::barycentrics(double x, double y) const {
-  const vec3<double> sum = edges_[0] + edges_[1] + edges_[2];
+  const vec3<double> sum = sum_;
   const double total = sum.x * x + sum.y * y + sum.z;
   Barycentrics b{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -138,7 +134,7 @@ TrianglePlanes::Barycentrics TrianglePlanes::barycentrics(double x, double y) co
 }
 
 vec2<double> TrianglePlanes::relative_change(double x, double y) const {
-  const vec3<double> sum = edges_[0] + edges_[1] + edges_[2];
+  const vec3<double> sum = sum_;
   const double total = sum.x * x + sum.y * y + sum.z;
   return {sum.x / total, sum.y / total};
 }

@@ -71,7 +71,9 @@ class TrianglePlanes {
   };
   [[nodiscard]] Box box() const;
   /// 1 / w at the point: larger is nearer. Positive where covers() holds.
-  [[nodiscard]] double inverse_w(double x, double y) const;
+  [[nodiscard]] double inverse_w(double x, double y) const {
+    return scale_ * (sum_.x * x + sum_.y * y + sum_.z);
+  }
 
   /// Barycentrics at a point and their derivatives by x and y, perspective-correct.
   struct Barycentrics {
@@ -84,6 +86,7 @@ class TrianglePlanes {
  private:
   std::array<vec3<double>, 3> corners_;
   std::array<vec3<double>, 3> edges_{}; // edge function i = dot(edges_[i], (x, y, 1)), >= 0 inside
+  vec3<double> sum_{};                  // of the edge functions
   double scale_ = 0;                    // 1 / |det|: turns their sum into 1 / w
   bool counter_clockwise_ = false;
   bool degenerate_ = true;

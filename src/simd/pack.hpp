@@ -132,6 +132,21 @@ HWY_INLINE T float_from_bits(Bits a) {
   return hn::BitCast(FloatTag(), a.v);
 }
 
+/// As surfgrad::detail's for one lane: exponents by their bits.
+HWY_INLINE void split_exponent(Float& m, Float& exponent) {
+  const hn::Vec<BitsTag> bits = hn::BitCast(BitsTag(), m.v);
+  const hn::Vec<IndexTag> e =
+      hn::Sub(hn::BitCast(IndexTag(), hn::ShiftRight<23>(bits)), hn::Set(IndexTag(), 127));
+  exponent = exponent + Float(Index(e));
+  m = hn::BitCast(FloatTag(),
+                  hn::Or(hn::And(bits, hn::Set(BitsTag(), 0x007fffffu)), hn::Set(BitsTag(), 0x3f800000u)));
+}
+HWY_INLINE void split_whole(Float& rest, Float& power) {
+  const hn::Vec<IndexTag> whole = hn::ConvertTo(IndexTag(), rest.v);
+  rest = rest - Float(Index(whole));
+  power = power * Float(hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Add(whole, hn::Set(IndexTag(), 127)))));
+}
+
 /// Unset lanes read word 0 and give 0: there are no masked gathers on all instruction sets.
 HWY_INLINE Bits gather(Words words, Index index, Mask m) {
   const hn::Mask<IndexTag> mi = hn::RebindMask(IndexTag(), m.v);
