@@ -42,9 +42,9 @@ class Bands {
                   {.vertex_frame = options.space == Space::tangent, .slot = slot_}) {}
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
-  [[nodiscard]] image::Image make(int row) {
+  void make(int row, image::Image& band) {
     const raster::Tile first = composer_.grid().tile(0, row);
-    image::Image band = image::make_image(options_.width, first.height, 3, image::Depth::unorm16);
+    stage::reshape(band, options_.width, first.height, 3);
     Counts counts;
     std::mutex adding;
     tbb::parallel_for(tbb::blocked_range<int>(0, composer_.grid().columns(), 8),
@@ -57,7 +57,6 @@ class Bands {
                       });
     const std::lock_guard<std::mutex> lock(adding_);
     add(counts, counts_);
-    return band;
   }
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
@@ -137,7 +136,7 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
   const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report);
   Bands bands(stage, scene, options);
   stage::for_each_band(
-      bands.count(), report, [&](int row) { return bands.make(row); }, take);
+      bands.count(), report, [&](int row, image::Image& band) { bands.make(row, band); }, take);
   Counts counts = bands.counts();
   counts.outside = triangles_outside(stage.surfaces(), stage.slot_of(0));
   if (counts.covered == 0)

@@ -71,15 +71,14 @@ class Bands {
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
 
-  [[nodiscard]] image::Image make(int row) {
+  void make(int row, image::Image& band) {
     const int height = composer_.grid().tile(0, row).height / side_;
-    image::Image band = image::make_image(options_.width, height, 3, image::Depth::float32);
+    stage::reshape(band, options_.width, height, 3);
     tbb::parallel_for(tbb::blocked_range<int>(0, composer_.grid().columns(), 8),
                       [&](const tbb::blocked_range<int>& columns) {
                         for (int column = columns.begin(); column < columns.end(); ++column)
                           draw(composer_.compose(column, row), band);
                       });
-    return band;
   }
 
   [[nodiscard]] Counts counts() const { return {covered_, degenerate_}; }
@@ -187,7 +186,7 @@ Counts render_bands(const scene::Scene& asked, const Options& options, const sta
   const auto projection = raster::Projection::camera(camera.screen_from_relative(width, height), camera.near);
   Bands bands(stage, projection, options, shading ? &*shading : nullptr);
   stage::for_each_band(
-      bands.count(), report, [&](int row) { return bands.make(row); }, take);
+      bands.count(), report, [&](int row, image::Image& band) { bands.make(row, band); }, take);
   return bands.counts();
 }
 

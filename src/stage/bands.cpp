@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
 
 namespace surfgrad::stage {
 
@@ -17,31 +20,67 @@ BandSink into(image::Image& picture) {
   };
 }
 
-void for_each_band(int count, const Report& report, const std::function<image::Image(int)>& make,
+void reshape(image::Image& image, int width, int height, int channels) {
+  image.width = width;
+  image.height = height;
+  image.channels = channels;
+  image.depth = image::Depth::float32;
+  image.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                      static_cast<std::size_t>(channels));
+}
+
+namespace {
+
+/// Bands that were taken, for those that are to be made: fresh memory costs more than what goes into it.
+class Spares {
+ public:
+  [[nodiscard]] std::shared_ptr<image::Image> get() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (spares_.empty()) return std::make_shared<image::Image>();
+    std::shared_ptr<image::Image> spare = std::move(spares_.back());
+    spares_.pop_back();
+    return spare;
+  }
+  void give(std::shared_ptr<image::Image> band) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    spares_.push_back(std::move(band));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<image::Image>> spares_;
+};
+
+} // namespace
+
+void for_each_band(int count, const Report& report, const std::function<void(int, image::Image&)>& make,
                    const BandSink& take) {
+  using Band = std::shared_ptr<image::Image>;
+  Spares spares;
   std::atomic<bool> stop{false};
   int next = count;
   int done = 0;
   // One more than there are threads: none waits while a band is taken.
   const auto under_way = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 1;
-  tbb::parallel_pipeline(under_way,
-                         tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order,
-                                                     [&](tbb::flow_control& control) {
-                                                       if (next == 0 || stop) {
-                                                         control.stop();
-                                                         return 0;
-                                                       }
-                                                       return --next;
-                                                     }) &
-                             tbb::make_filter<int, image::Image>(tbb::filter_mode::parallel, make) &
-                             tbb::make_filter<image::Image, void>(
-                                 tbb::filter_mode::serial_in_order, [&](const image::Image& band) {
-                                   if (stop) return;
-                                   take(band);
-                                   ++done;
-                                   if (report.progress && !report.progress(static_cast<double>(done) / count))
-                                     stop = true;
-                                 }));
+  tbb::parallel_pipeline(
+      under_way,
+      tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {
+        if (next == 0 || stop) {
+          control.stop();
+          return 0;
+        }
+        return --next;
+      }) & tbb::make_filter<int, Band>(tbb::filter_mode::parallel, [&](int i) {
+        Band band = spares.get();
+        make(i, *band);
+        return band;
+      }) & tbb::make_filter<Band, void>(tbb::filter_mode::serial_in_order, [&](Band band) {
+        if (stop) return;
+        take(*band);
+        spares.give(std::move(band));
+        ++done;
+        if (report.progress && !report.progress(static_cast<double>(done) / count)) stop = true;
+      }));
   if (stop) throw Cancelled();
 }
 

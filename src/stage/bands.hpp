@@ -11,6 +11,9 @@ namespace surfgrad::stage {
 /// lowest). Never called by two threads at a time.
 using BandSink = std::function<void(const image::Image& band)>;
 
+/// Gives an image a size; what it holds stays undefined.
+void reshape(image::Image& image, int width, int height, int channels);
+
 /// Puts a picture together again. The picture must have its size already.
 [[nodiscard]] BandSink into(image::Image& picture);
 
@@ -18,9 +21,9 @@ using BandSink = std::function<void(const image::Image& band)>;
 /// are made. So many are under way at a time that every thread has one; memory is theirs.
 ///
 /// count      bands; 0 is the lowest
-/// make       makes a band: (band) -> image; any thread
+/// make       makes a band: (band, image to fill); any thread. The image is an old band or empty
 /// Results do not depend on the number of threads. Throws Cancelled when the progress callback asks to stop.
-void for_each_band(int count, const Report& report, const std::function<image::Image(int)>& make,
+void for_each_band(int count, const Report& report, const std::function<void(int, image::Image&)>& make,
                    const BandSink& take);
 
 } // namespace surfgrad::stage
