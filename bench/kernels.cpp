@@ -72,4 +72,18 @@ void sample_map(const image::Map& map, const Lookups& lookups, image::Filter fil
   }
 }
 
+void gather_pairs(Words words, const WordPairs& pairs, int begin, int end) {
+  const T one = T(value_t<T>(1));
+  const mask_t<T> everywhere(one == one);
+  for (int i = begin; i < end; i += lane_count<T>) {
+    bits_t<T> sum(0U);
+    for (int k = 0; k < pairs.count; ++k) {
+      const auto two =
+          gather_pair(words, load_index<T>(pairs.at[static_cast<std::size_t>(k)] + i), everywhere);
+      sum = sum + (two[0] + two[1]);
+    }
+    store(T(index_t<T>(sum)), pairs.sums + i);
+  }
+}
+
 } // namespace surfgrad::bench::SURFGRAD_ISA_NAMESPACE

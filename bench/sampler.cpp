@@ -108,6 +108,38 @@ Sampler naive(const SlopePyramid& map) {
           }};
 }
 
+using Gather = void (*)(Words, const WordPairs&, int, int);
+Gather gather_on(simd::Isa isa) { return SURFGRAD_FUNCTION_OF_ISA(isa, gather_pairs); }
+
+/// What bounds ours: the same words of the same map at indices known before.
+class GatherLimit {
+ public:
+  GatherLimit(simd::Isa isa, const image::Map& map, const LookupList& list, Filtering filtering)
+      : kernel_(gather_on(isa)), words_(map.texels()), sums_(list.s.size()) {
+    pairs_.count = filtering == Filtering::trilinear ? 4 : 2;
+    pairs_.sums = sums_.data();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(pairs_.count); ++k) {
+      const int level = static_cast<int>(k) / 2;
+      const auto texel = [&](float s, int size) {
+        const int i = static_cast<int>(std::floor((s - std::floor(s)) * static_cast<float>(size) - 0.5F));
+        return i < 0 ? size - 1 : i;
+      };
+      for (std::size_t i = 0; i < list.s.size(); ++i)
+        at_[k].push_back(static_cast<std::int32_t>(map.word(level, texel(list.s[i], map.width(level)),
+                                                            texel(list.t[i], map.height(level)) + (k & 1U))));
+      pairs_.at[k] = at_[k].data();
+    }
+  }
+  void run(int begin, int end) const { kernel_(words_, pairs_, begin, end); }
+
+ private:
+  Gather kernel_;
+  Words words_;
+  std::vector<std::int32_t> at_[4];
+  std::vector<float> sums_;
+  WordPairs pairs_;
+};
+
 const char* name_of(Filtering filtering) {
   return filtering == Filtering::bilinear    ? "bilinear"
          : filtering == Filtering::trilinear ? "trilinear"
@@ -135,7 +167,7 @@ void compare(const std::string& title, Filtering filtering, const LookupList& li
 
 /// The first is the naive one, the second ours.
 void race(const Request& request, int threads, Filtering filtering, const char* order, const LookupList& list,
-          const std::vector<Sampler>& samplers) {
+          const std::vector<Sampler>& samplers, const image::Map& map) {
   const int count = static_cast<int>(list.s.size());
   const Heat heat{"sampler", fmt::format("{}, {}", name_of(filtering), order),
                   "lookup",  double(count),
@@ -144,17 +176,28 @@ void race(const Request& request, int threads, Filtering filtering, const char* 
   Samples results(list.s.size());
   std::vector<Contestant> contestants;
   for (const Sampler& s : samplers)
-    contestants.push_back({s.name, [&, threads, filtering] {
-                             return timed([&] {
-                               on_threads(threads, count, grain, [&](int begin, int end) {
-                                 s.sample(filtering, list, begin, end, results);
-                               });
+    contestants.push_back({s.name, repeated(request.seconds_a_run(), [&, threads, filtering] {
+                             on_threads(threads, count, grain, [&](int begin, int end) {
+                               s.sample(filtering, list, begin, end, results);
                              });
-                           }});
+                           })});
+  const bool races = samplers[1].name.starts_with("surfgrad");
+  const GatherLimit limit(simd::available_isas().back(), map, list, filtering);
+  if (races && map.format == image::TexelFormat::slope16)
+    contestants.push_back({"limit: the gathers alone", repeated(request.seconds_a_run(), [&, threads] {
+                             on_threads(threads, count, grain,
+                                        [&](int begin, int end) { limit.run(begin, end); });
+                           })});
   const std::vector<Result> r = run(heat, contestants);
-  if (!r[1].name.starts_with("surfgrad")) return;
+  if (!races) {
+    if (threads == request.threads[0]) report_note("sampler", heat.title + ": surfgrad has no such filter");
+    return;
+  }
   const bool judged = filtering == Filtering::trilinear && threads == 1;
-  for (std::size_t k = 0; k < r.size(); ++k) {
+  if (r.size() > samplers.size())
+    report_value(heat, r[1].name + ", of what the gathers alone allow", 100 * times_faster(r.back(), r[1]),
+                 "%");
+  for (std::size_t k = 0; k < samplers.size(); ++k) {
     if (samplers[k].name.starts_with("surfgrad")) continue;
     const double factor = times_faster(r[k], r[1]);
     const std::string what = r[1].name + " over " + r[k].name;
@@ -201,8 +244,8 @@ void race(const Request& request) {
       std::vector<Sampler> able;
       for (const Sampler& s : samplers)
         if (filtering != Filtering::anisotropic || s.knows_anisotropy) able.push_back(s);
-      race(request, threads, filtering, "coherent", coherent, able);
-      race(request, threads, filtering, "random", random, able);
+      race(request, threads, filtering, "coherent", coherent, able, map8.map);
+      race(request, threads, filtering, "random", random, able, map8.map);
     }
 #if SURFGRAD_BENCH_OIIO
   std::filesystem::remove_all(folder);
