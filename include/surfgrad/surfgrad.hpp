@@ -8,6 +8,7 @@
 #include <surfgrad/frame.hpp>
 #include <surfgrad/gradient.hpp>
 #include <surfgrad/hex_tiles.hpp>
+#include <surfgrad/moments.hpp>
 #include <surfgrad/noise.hpp>
 #include <surfgrad/noise_hash.hpp>
 #include <surfgrad/parallax.hpp>

@@ -24,6 +24,8 @@ image::Filter filter_of(stack::Filter filter) {
   case stack::Filter::bilinear:
     return image::Filter::bilinear;
   case stack::Filter::trilinear:
+  case stack::Filter::anisotropic:
+  case stack::Filter::normal:
     break;
   }
   return image::Filter::trilinear;
@@ -47,7 +49,8 @@ TiledMap Compiler::tiled(const stack::Tiled& use, std::shared_ptr<const image::M
           {wrap_of(use.wrap), wrap_of(use.wrap_t.value_or(use.wrap))},
           filter_of(use.filter),
           // A tile turns by at most hex_turn_deg either way.
-          use.tiling == stack::Tiling::hex ? std::optional(use.hex_turn_deg / 180) : std::nullopt};
+          use.tiling == stack::Tiling::hex ? std::optional(use.hex_turn_deg / 180) : std::nullopt,
+          use.filter == stack::Filter::anisotropic ? use.anisotropy : 1};
 }
 
 Texture Compiler::texture(const stack::Texture& use, std::shared_ptr<const image::Map> map) const {
@@ -69,7 +72,7 @@ BumpMap Compiler::bump_map(const stack::BumpCodes& use, stack::Content content,
   case stack::Content::normal:
     break;
   }
-  return {tiled(use, maps_.slopes(file, use.channels, use.green))};
+  return {tiled(use, maps_.slopes(file, use.channels, use.green, use.filter))};
 }
 
 vec2<double> Compiler::rotation(double degrees) { return rotation_of(degrees); }

@@ -88,13 +88,18 @@ void MapLibrary::require_channel(const image::Image& image, stack::MaskChannel c
 }
 
 std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::FileName& file, stack::Channels channels,
-                                                     stack::Green green) {
-  return made_once("slopes " + number_of(channels) + word_of(green), file, 2, [&](const image::Image& image) {
+                                                     stack::Green green, stack::Filter filter) {
+  const bool encoded = filter == stack::Filter::normal;
+  const std::string kind = (encoded ? "normals " : "slopes ") + number_of(channels) + word_of(green);
+  return made_once(kind, file, encoded ? 3 : 2, [&](const image::Image& image) {
     require_channels(image, channels == stack::Channels::xyz ? 3 : 2, file, "a normal map");
-    image::SlopeMap slopes = image::make_slope_map(image, channels_of(channels), green == stack::Green::up);
-    if (slopes.inward_texels > 0)
-      inward_.push_back({file.path, slopes.inward_texels, std::int64_t{image.width} * image.height});
-    return std::move(slopes.map);
+    const auto make = encoded ? image::make_encoded_map : image::make_slope_map;
+    image::SlopeMap map = make(image, channels_of(channels), green == stack::Green::up);
+    const bool told = std::any_of(inward_.begin(), inward_.end(),
+                                  [&](const InwardTexels& known) { return known.file == file.path; });
+    if (map.inward_texels > 0 && !told)
+      inward_.push_back({file.path, map.inward_texels, std::int64_t{image.width} * image.height});
+    return std::move(map.map);
   });
 }
 

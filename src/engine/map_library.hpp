@@ -29,9 +29,10 @@ class MapLibrary {
 
   // These throw InputError where the image has too few channels.
 
-  /// A tangent-space normal map as slopes.
+  /// A tangent-space normal map as slopes; with Filter::normal as it is encoded.
   std::shared_ptr<const image::Map> slopes(const stack::FileName& file, stack::Channels channels,
-                                           stack::Green green);
+                                           stack::Green green,
+                                           stack::Filter filter = stack::Filter::trilinear);
   /// A derivative map as slopes.
   std::shared_ptr<const image::Map> derivatives(const stack::FileName& file,
                                                 const stack::DerivativeCode& code, stack::Green green);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "image/anisotropy.hpp"
 #include "image/height_map.hpp"
 #include "image/sampler.hpp"
 #include "raster/fragment.hpp"
 
+#include <surfgrad/derivative.hpp>
 #include <surfgrad/hex_tiles.hpp>
 #include <surfgrad/screen.hpp>
 
@@ -23,6 +25,7 @@ struct TiledMap {
   image::Filter filter = image::Filter::trilinear;
   /// Hex tiles instead of plain repetition: how far they turn, 0 to 1 (hex_tiles). Only with wrap repeat.
   std::optional<double> hex_turn{};
+  int anisotropy = 1; ///< most trilinear probes for a footprint: 1 to image::most_anisotropy
 };
 
 /// A map laid on a texture coordinate of the surface.
@@ -57,6 +60,20 @@ template <Scalar T>
   const vec2<T> size{T(static_cast<value_t<T>>(tiled.map->width())),
                      T(static_cast<value_t<T>>(tiled.map->height()))};
   return texture_lod(in_map(tiled, footprint_dx), in_map(tiled, footprint_dy), size);
+}
+
+/// What a footprint on the plane of st is on that of st'.
+template <LaneScalar T>
+[[nodiscard]] image::Footprint<T> footprint_in_map(const TiledMap& tiled, vec2<T> footprint_dx,
+                                                   vec2<T> footprint_dy) {
+  if (tiled.anisotropy == 1) {
+    const T zero = T(value_t<T>(0));
+    return {level_of_detail(tiled, footprint_dx, footprint_dy), {zero, zero}, T(value_t<T>(1))};
+  }
+  const vec2<T> size{T(static_cast<value_t<T>>(tiled.map->width())),
+                     T(static_cast<value_t<T>>(tiled.map->height()))};
+  return image::footprint_of(in_map(tiled, footprint_dx), in_map(tiled, footprint_dy), size,
+                             tiled.anisotropy);
 }
 
 /// A slope of the map's image expressed along st again: the rotation undone, mirrored axes turned over.
@@ -96,6 +113,13 @@ template <Scalar T>
   const vec2<T> period{constant<T>(tile.period.x), constant<T>(tile.period.y)};
   const vec2<T> inverse{constant<T>(1 / tile.period.x), constant<T>(1 / tile.period.y)};
   return inverse * rotate(period * change, tile.rotation);
+}
+
+/// A footprint on the plane of st' as one of tile.st. A tile turns where texels are square: the footprint is
+/// as long and as wide in it.
+template <Scalar T>
+[[nodiscard]] image::Footprint<T> in_tile(const MapTile<T>& tile, const image::Footprint<T>& footprint) {
+  return {footprint.lod, in_tile(tile, footprint.axis), footprint.probes};
 }
 
 /// A derivative of a height by tile.st: its derivative by st'.
@@ -162,23 +186,46 @@ template <int N, LaneScalar T>
   return image::sample<N>(*tiled.map, st, lod, tiled.wrap, tiled.filter, mask_t<T>(one == one));
 }
 
+/// The same, filtered for a footprint on the plane in which it is read.
+template <int N, LaneScalar T>
+[[nodiscard]] std::array<T, N> sample_at(const TiledMap& tiled, vec2<T> st,
+                                         const image::Footprint<T>& footprint) {
+  if (tiled.anisotropy == 1) return sample_at<N>(tiled, st, footprint.lod);
+  const T one = T(value_t<T>(1));
+  return image::sample<N>(*tiled.map, st, footprint, tiled.wrap, mask_t<T>(one == one));
+}
+
 /// The components of a map of values at a coordinate, filtered for a footprint: weights, heights. What
 /// has a direction in the plane is turned with its tile: sample_slopes and sample_height_slopes.
 template <int N, LaneScalar T>
 [[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
                                       vec2<T> footprint_dy) {
-  // A tile turns where texels are square: the footprint's axes are as long in it.
-  const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
+  const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
   const vec2<T> here = map_coordinate(tiled, st);
-  if (!tiled.hex_turn) return sample_at<N>(tiled, here, lod);
+  if (!tiled.hex_turn) return sample_at<N>(tiled, here, footprint);
   const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
   const vec3<T> w = weights_by_place(tiles.hex);
-  const std::array<T, N> a = sample_at<N>(tiled, tiles.tile[0].st, lod);
-  const std::array<T, N> b = sample_at<N>(tiled, tiles.tile[1].st, lod);
-  const std::array<T, N> c = sample_at<N>(tiled, tiles.tile[2].st, lod);
+  const auto of_tile = [&](const MapTile<T>& tile) {
+    return sample_at<N>(tiled, tile.st, in_tile(tile, footprint));
+  };
+  const std::array<T, N> a = of_tile(tiles.tile[0]);
+  const std::array<T, N> b = of_tile(tiles.tile[1]);
+  const std::array<T, N> c = of_tile(tiles.tile[2]);
   std::array<T, N> blend;
   for (int i = 0; i < N; ++i) blend[i] = w.x * a[i] + w.y * b[i] + w.z * c[i];
   return blend;
+}
+
+/// Where a coordinate st' or a tile reads a map of slopes, or of encoded normals: the slope.
+template <LaneScalar T>
+[[nodiscard]] vec2<T> slope_at(const TiledMap& tiled, vec2<T> st, const image::Footprint<T>& footprint) {
+  if (tiled.map->encoded && tiled.map->components == 3) {
+    const std::array<T, 3> normal = sample_at<3>(tiled, st, footprint);
+    return derivative_from_normal(vec3<T>{normal[0], normal[1], normal[2]});
+  }
+  const std::array<T, 2> texel = sample_at<2>(tiled, st, footprint);
+  const vec2<T> of_texel{texel[0], texel[1]};
+  return tiled.map->encoded ? derivative_from_normal(of_texel) : of_texel;
 }
 
 /// The slopes of a map of slopes along st' (along_coordinate takes them to st). Of hex tiles the steeper
@@ -186,15 +233,14 @@ template <int N, LaneScalar T>
 template <LaneScalar T>
 [[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
                                     vec2<T> footprint_dy) {
-  const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
+  const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
   const vec2<T> here = map_coordinate(tiled, st);
-  const auto slope = [&](vec2<T> at) {
-    const std::array<T, 2> texel = sample_at<2>(tiled, at, lod);
-    return vec2<T>{texel[0], texel[1]};
-  };
-  if (!tiled.hex_turn) return slope(here);
+  if (!tiled.hex_turn) return slope_at(tiled, here, footprint);
   const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
-  const vec2<T> slopes[3] = {slope(tiles.tile[0].st), slope(tiles.tile[1].st), slope(tiles.tile[2].st)};
+  const auto of_tile = [&](const MapTile<T>& tile) {
+    return slope_at(tiled, tile.st, in_tile(tile, footprint));
+  };
+  const vec2<T> slopes[3] = {of_tile(tiles.tile[0]), of_tile(tiles.tile[1]), of_tile(tiles.tile[2])};
   return hex_derivative(tiles.hex, hex_weights(tiles.hex, slopes), slopes);
 }
 
@@ -205,14 +251,28 @@ template <LaneScalar T>
   return image::wrapped_slope(st, vec2<T>{texel[0], texel[1]}, tiled.wrap);
 }
 
+/// The same over a footprint on the plane in which it is read: of every probe the slope that shows there.
+template <LaneScalar T>
+[[nodiscard]] vec2<T> slope_of_heights(const TiledMap& tiled, vec2<T> st,
+                                       const image::Footprint<T>& footprint) {
+  if (tiled.anisotropy == 1) return slope_of_heights(tiled, st, footprint.lod);
+  const T one = T(value_t<T>(1));
+  const auto slope = image::average_of_probes<2, T>(
+      footprint, mask_t<T>(one == one), [&](vec2<T> offset, mask_t<T>) -> std::array<T, 2> {
+        const vec2<T> d = slope_of_heights(tiled, st + offset, footprint.lod);
+        return {d.x, d.y};
+      });
+  return {slope[0], slope[1]};
+}
+
 /// The derivative by st' of the heights whose derivatives by the whole map `tiled` holds (by_coordinate
 /// takes it to st).
 template <LaneScalar T>
 [[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
                                            vec2<T> footprint_dy) {
-  const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
+  const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
   return height_derivative(tiled, map_coordinate(tiled, st), [&](const MapTile<T>& tile) {
-    return derivative_from_tile(tile, slope_of_heights(tiled, tile.st, lod));
+    return derivative_from_tile(tile, slope_of_heights(tiled, tile.st, in_tile(tile, footprint)));
   });
 }
 

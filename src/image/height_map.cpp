@@ -1,5 +1,6 @@
 #include "image/height_map.hpp"
 
+#include "image/parallel.hpp"
 #include "image/pyramid.hpp"
 
 #include <algorithm>
@@ -41,13 +42,15 @@ Map make_height_slopes(const Image& image, int channel, Wraps wraps) {
     constexpr double most = saturated(std::numeric_limits<float>::max());
     return static_cast<float>(std::clamp(0.5 * size * (after - before), -most, most));
   };
-  std::vector<float> slopes;
-  slopes.reserve(2 * h.size());
-  for (int y = 0; y < height; ++y)
+  std::vector<float> slopes(2 * h.size());
+  in_parallel(static_cast<std::size_t>(height), static_cast<std::size_t>(width), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
-      slopes.push_back(slope(at(x - 1, y), at(x + 1, y), width));
-      slopes.push_back(slope(at(x, y - 1), at(x, y + 1), height));
+      float* texel = &slopes[2 * (row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
+      texel[0] = slope(at(x - 1, y), at(x + 1, y), width);
+      texel[1] = slope(at(x, y - 1), at(x, y + 1), height);
     }
+  });
   return with_pyramid(std::move(slopes), width, height, 2);
 }
 

@@ -37,6 +37,7 @@ struct Map {
   int components = 0; ///< 1 scalar, 2 slope, 3 direction
   TexelFormat format = TexelFormat::floats;
   double scale = 1;                         ///< value of the code 1; of slopes a power of two
+  bool encoded = false;                     ///< texels are normals, to become slopes after they are filtered
   int level_count = 0;                      ///< at least 1
   std::vector<std::uint32_t> words{};       ///< level after level, row 0 at the bottom
   std::vector<std::uint32_t> level_table{}; ///< width, height, first word: three words a level
@@ -67,7 +68,7 @@ inline constexpr int map_most_texels = 1 << 22;
 
 /// A map together with what its texels were like.
 struct SlopeMap {
-  Map map{};
+  Map map{};                                     ///< of slopes, or of encoded normals
   NormalChannels channels = NormalChannels::xyz; ///< what `automatic` decided
   std::int64_t inward_texels = 0;                ///< z <= 0: no height field has them
 };
@@ -81,6 +82,17 @@ struct SlopeMap {
 ///           at most 2^-14 (6.1e-5), less than a hundredth of the step from code to code.
 /// source    derivative_from_normal, texel by texel
 [[nodiscard]] SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up);
+
+/// The same normal map kept as it is encoded, components from -1 to 1 and levels that average those: what
+/// graphics hardware filters. It flattens tilted bumps and lets long vectors outweigh short ones; it is
+/// here to show what others show.
+[[nodiscard]] SlopeMap make_encoded_map(const Image& image, NormalChannels channels, bool green_up);
+
+/// Second moments of a map of slopes, beside its means: components (ds^2, dt^2, ds * dt), each level
+/// averaging them as it averages slopes. So a sample of both is SlopeMoments of what was filtered together.
+///
+/// slopes  two components, not encoded. Its own texels are squared: level 0 has no variance.
+[[nodiscard]] Map make_slope_moments(const Map& slopes);
 
 /// Which code of an integer derivative map means flat.
 enum class NeutralCode {

@@ -1,7 +1,8 @@
 #include "image/pyramid.hpp"
 
+#include "image/parallel.hpp"
+
 #include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -9,24 +10,12 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace surfgrad::image {
 namespace {
 
 using Texels = std::vector<float>;
-
-/// Runs over blocks of [0, count): results go to places of their own, so that they do not depend on how
-/// the blocks are cut. Grain: a task is worth starting for some ten thousand texels.
-template <class Body>
-void in_blocks(std::size_t count, std::size_t texels_each, const Body& body) {
-  const std::size_t grain = std::max<std::size_t>(1, 32768 / std::max<std::size_t>(texels_each, 1));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                    [&](const tbb::blocked_range<std::size_t>& block) {
-                      for (std::size_t i = block.begin(); i != block.end(); ++i) body(i);
-                    });
-}
 
 /// Texels along one axis over whose footprint one of the next lower level averages. Sides are halved and
 /// rounded down, so that it is two texels long, or up to three from an odd side.
@@ -84,7 +73,7 @@ Texels halve(const Texels& source, int width, int height, int to_width, int to_h
   Texels result(to_floats * static_cast<std::size_t>(to_height));
   if (width == 2 * to_width && height == 2 * to_height) {
     constexpr std::array even_rows{halve_even_row<1>, halve_even_row<2>, halve_even_row<3>};
-    in_blocks(static_cast<std::size_t>(to_height), to_floats, [&](std::size_t y) {
+    in_parallel(static_cast<std::size_t>(to_height), to_floats, [&](std::size_t y) {
       const float* below = source.data() + 2 * y * row_floats;
       even_rows[n - 1](below, below + row_floats, static_cast<std::size_t>(to_width), &result[y * to_floats]);
     });
@@ -92,7 +81,7 @@ Texels halve(const Texels& source, int width, int height, int to_width, int to_h
   }
   const auto columns = footprints(width, to_width);
   const auto rows = footprints(height, to_height);
-  in_blocks(static_cast<std::size_t>(to_height), to_floats, [&](std::size_t y) {
+  in_parallel(static_cast<std::size_t>(to_height), to_floats, [&](std::size_t y) {
     halve_row(source.data(), row_floats, rows[y], columns, n, &result[y * to_floats]);
   });
   return result;
@@ -129,7 +118,7 @@ void store_level(const Texels& texels, Map& map, int level) {
   const auto width = static_cast<std::size_t>(map.width(level));
   const int height = map.height(level);
   const auto components = static_cast<std::size_t>(map.components);
-  in_blocks(static_cast<std::size_t>(height) + 1, width, [&](std::size_t y) {
+  in_parallel(static_cast<std::size_t>(height) + 1, width, [&](std::size_t y) {
     const std::size_t row = y < static_cast<std::size_t>(height) ? y : 0;
     store_row(texels.data() + row * width * components, width, components, {map.format, map.scale},
               map.words.data() + map.word(level, 0, static_cast<int>(y)));

@@ -1,5 +1,7 @@
 #include "render/environment.hpp"
 
+#include "image/pyramid.hpp"
+
 #include <surfgrad/trigonometry.hpp>
 
 #include <tbb/parallel_for.h>
@@ -180,27 +182,26 @@ std::array<vec3<float>, abreast> blurred(const Sky& sky, const Lobe& lobe,
 
 template <class Lobe>
 image::CubeMap blurred_cube(const Sky& sky, const Lobe& lobe) {
-  constexpr std::uint32_t side = blurred_size;
-  std::array<image::Map, 6> faces;
-  for (image::Map& face : faces) {
-    face = {.components = 3, .level_count = 1, .level_table = {side, side, 0}};
-    face.words.resize(std::size_t{3} * side * side);
-  }
+  std::array<std::vector<float>, 6> light;
+  for (std::vector<float>& face : light) face.resize(std::size_t{3} * blurred_size * blurred_size);
   static_assert(blurred_size % abreast == 0);
   tbb::parallel_for(0, 6 * blurred_size, [&](int row) {
     const int face = row / blurred_size;
     const int y = row % blurred_size;
     const auto centre = [](int i) { return (2.0 * i + 1) / blurred_size - 1; };
-    std::uint32_t* word = &faces[face].words[std::size_t{3} * side * y];
+    float* value = &light[face][std::size_t{3} * blurred_size * y];
     for (int first = 0; first < blurred_size; first += abreast) {
       std::array<vec3<float>, abreast> directions;
       for (int k = 0; k < abreast; ++k)
         directions[k] =
             as_float(normalize_or_zero(image::cube_direction(face, {centre(first + k), centre(y)})));
-      for (const vec3<float>& light : blurred(sky, lobe, directions))
-        for (const float c : {light.x, light.y, light.z}) *word++ = std::bit_cast<std::uint32_t>(c);
+      for (const vec3<float>& color : blurred(sky, lobe, directions))
+        for (const float c : {color.x, color.y, color.z}) *value++ = c;
     }
   });
+  std::array<image::Map, 6> faces;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    faces[i] = image::with_pyramid(std::move(light[i]), blurred_size, blurred_size, 3);
   return image::cube_of_faces(faces);
 }
 

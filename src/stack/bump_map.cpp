@@ -22,7 +22,7 @@ void require_content(Word content, const Value& value, std::string_view key,
 }
 
 template <class Word>
-void check_keys(Word content, const Value& value) {
+void check_keys(Word content, const Tiled& tiled, const Value& value) {
   require_content(content, value, "channels", {Word::normal});
   if constexpr (requires { Word::object_normal; }) {
     require_content(content, value, "green", {Word::normal, Word::derivative, Word::object_normal});
@@ -35,6 +35,7 @@ void check_keys(Word content, const Value& value) {
   require_content(content, value, "neutral", {Word::derivative});
   require_content(content, value, "channel", {Word::height});
   require_content(content, value, "height", {Word::height});
+  if (content != Word::normal) refuse_normal_filter(tiled, value, "no map of tangent-space normals");
 }
 
 /// The table of a map that has a content of its own beside the codes.
@@ -43,7 +44,7 @@ Fields<Map> with_content() {
   return Fields<Map>()
       .word("content", &Map::content)
       .template base<BumpCodes>()
-      .finally([](Map& map, const Value& value) { check_keys(map.content, value); });
+      .finally([](Map& map, const Value& value) { check_keys(map.content, map, value); });
 }
 
 } // namespace

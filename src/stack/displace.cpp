@@ -30,6 +30,7 @@ const Fields<DisplacementMap>& DisplacementMap::fields() {
   static const auto table = Fields<DisplacementMap>()
                                 .base<Texture>()
                                 .without("filter")
+                                .without("anisotropy")
                                 .without("tiling")
                                 .without("hex_turn")
                                 .word("channel", &DisplacementMap::channel);

@@ -36,7 +36,22 @@ void check_tiling(const Tiled& tiled, const Value& value) {
       .fail("hex tiling needs a map that repeats", R"(expected "wrap": "repeat", or no "tiling")");
 }
 
+/// A number of probes that no filter takes is a slip.
+void check_anisotropy(const Tiled& tiled, const Value& value) {
+  const Member* anisotropy = value.find("anisotropy");
+  if (tiled.filter != Filter::anisotropic && anisotropy != nullptr)
+    value.member(*anisotropy)
+        .fail("does not apply to this filter", R"(leave it out, or give "filter": "anisotropic")");
+}
+
 } // namespace
+
+void refuse_normal_filter(const Tiled& tiled, const Value& value, const char* what) {
+  if (tiled.filter == Filter::normal)
+    value.member(*value.find("filter"))
+        .fail(std::string(R"(is "normal", but this is )") + what,
+              "expected one of: nearest, bilinear, trilinear, anisotropic");
+}
 
 void refuse_hex_tiling(const Tiled& tiled, const Value& value, const char* why) {
   if (tiled.tiling == Tiling::hex)
@@ -50,8 +65,10 @@ const Fields<Tiled>& Tiled::fields() {
                                 .vector("offset", &Tiled::offset)
                                 .word("wrap", &Tiled::wrap)
                                 .word("filter", &Tiled::filter)
+                                .integer("anisotropy", &Tiled::anisotropy, {.least = 1, .most = 16})
                                 .word("tiling", &Tiled::tiling)
                                 .number("hex_turn", &Tiled::hex_turn_deg, {.least = 0, .most = 180})
+                                .finally(check_anisotropy)
                                 .finally(check_tiling);
   return table;
 }
@@ -80,7 +97,11 @@ const Fields<TangentMap>& TangentMap::fields() {
 }
 
 const Fields<Mask>& Mask::fields() {
-  static const auto table = Fields<Mask>().base<Texture>().word("channel", &Mask::channel);
+  static const auto table =
+      Fields<Mask>()
+          .base<Texture>()
+          .word("channel", &Mask::channel)
+          .finally([](Mask& mask, const Value& value) { refuse_normal_filter(mask, value, "a mask"); });
   return table;
 }
 

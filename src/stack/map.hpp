@@ -30,15 +30,20 @@ struct Tiled {
   Wrap wrap = Wrap::repeat;
   /// Along t where it differs: a model's sampler can say so, a document has one word for both axes.
   std::optional<Wrap> wrap_t{};
-  Filter filter = Filter::trilinear;
-  Tiling tiling = Tiling::plain; ///< hex only with Wrap::repeat
-  double hex_turn_deg = 180;     ///< 0 to 180: hex tiles turn at random by up to this, either way
+  Filter filter = Filter::trilinear; ///< normal only for tangent-space normal maps
+  int anisotropy = 8;                ///< most probes of the anisotropic filter, 1 to 16
+  Tiling tiling = Tiling::plain;     ///< hex only with Wrap::repeat
+  double hex_turn_deg = 180;         ///< 0 to 180: hex tiles turn at random by up to this, either way
 
   static const Fields<Tiled>& fields();
 };
 
 /// Refuses hex tiling, for maps that are more than a picture on a plane. `why` completes "is hex, but".
 void refuse_hex_tiling(const Tiled& tiled, const Value& value, const char* why);
+
+/// Refuses the filter of encoded normals for maps of anything else. `what` completes "is normal, but this
+/// is".
+void refuse_normal_filter(const Tiled& tiled, const Value& value, const char* what);
 
 /// A 2D map on a texture coordinate of the mesh.
 struct Texture : Tiled {

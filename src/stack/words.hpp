@@ -15,7 +15,9 @@ namespace surfgrad::stack {
 enum class Blend { add, mix };
 /// What lies outside the unit square of a map.
 enum class Wrap { repeat, mirror, clamp };
-enum class Filter { nearest, bilinear, trilinear };
+/// How texels are filtered. anisotropic: several trilinear probes along the longer axis of a footprint;
+/// normal: trilinear, but of normals as they are encoded instead of slopes, as GPUs do.
+enum class Filter { nearest, bilinear, trilinear, anisotropic, normal };
 /// How a map covers more than its unit square: by repetition, or by blended, randomly shifted and turned
 /// copies in hexagons that hide it.
 enum class Tiling { plain, hex };
@@ -96,7 +98,9 @@ inline constexpr auto words_of<Wrap> =
 template <>
 inline constexpr auto words_of<Filter> = std::to_array<Word<Filter>>({{"nearest", Filter::nearest},
                                                                       {"bilinear", Filter::bilinear},
-                                                                      {"trilinear", Filter::trilinear}});
+                                                                      {"trilinear", Filter::trilinear},
+                                                                      {"anisotropic", Filter::anisotropic},
+                                                                      {"normal", Filter::normal}});
 template <>
 inline constexpr auto words_of<Tiling> = std::to_array<Word<Tiling>>({{"plain", Tiling::plain},
                                                                       {"hex", Tiling::hex}});

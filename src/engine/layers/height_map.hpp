@@ -53,10 +53,11 @@ template <LaneScalar T>
   const TiledMap& tiled = layer.texture.tiled;
   const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(layer.texture.slot)];
   const T lod = level_of_detail(tiled, uv.footprint_dx, uv.footprint_dy);
-  const auto height = [&](vec2<T> st) { return sample_at<1>(tiled, st, lod)[0]; };
+  const image::Footprint<T> footprint = footprint_in_map(tiled, uv.footprint_dx, uv.footprint_dy);
   return height_derivative(tiled, map_coordinate(tiled, uv.st), [&](const MapTile<T>& tile) {
     const vec2<T> dx = in_tile(tile, in_map(tiled, uv.dst_dx));
     const vec2<T> dy = in_tile(tile, in_map(tiled, uv.dst_dy));
+    const auto height = [&](vec2<T> st) { return sample_at<1>(tiled, st, in_tile(tile, footprint))[0]; };
     vec2<T> first = tile.st;
     if (layer.across_quad) {
       // The pixels of a block share the differences between its first pixel and the two next to that.
@@ -80,9 +81,10 @@ template <LaneScalar T>
   const TiledMap& tiled = layer.texture.tiled;
   const raster::UvFragment<T>& uv = fragment.uvs[static_cast<std::size_t>(layer.texture.slot)];
   const T lod = level_of_detail(tiled, uv.footprint_dx, uv.footprint_dy);
+  const image::Footprint<T> footprint = footprint_in_map(tiled, uv.footprint_dx, uv.footprint_dy);
   const vec2<T> st = map_coordinate(tiled, uv.st);
   const vec2<T> dh = height_derivative(tiled, st, [&](const MapTile<T>& tile) {
-    const vec2<T> by_map = slope_of_heights(tiled, tile.st, lod);
+    const vec2<T> by_map = slope_of_heights(tiled, tile.st, in_tile(tile, footprint));
     return derivative_from_tile(tile, smoothed(layer, tile.st, lod, by_map, [](vec2<T> d) { return d; }));
   });
   const double height_by_width = static_cast<double>(tiled.map->height()) / tiled.map->width();

@@ -5,7 +5,7 @@
 namespace surfgrad::engine {
 
 NormalMap compiled(const stack::NormalMapLayer& layer, const Compiler& compiler) {
-  return {compiler.influence(layer.common), compiler.texture(layer.map, compiler.maps().slopes(layer.map.file, layer.map.channels, layer.map.green)),
+  return {compiler.influence(layer.common), compiler.texture(layer.map, compiler.maps().slopes(layer.map.file, layer.map.channels, layer.map.green, layer.map.filter)),
           layer.basis == stack::Basis::derived};
 }
 

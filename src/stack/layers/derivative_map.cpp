@@ -10,7 +10,10 @@ const Fields<DerivativeMapLayer>& DerivativeMapLayer::fields() {
                                 .part(&DerivativeMapLayer::map)
                                 .part(&DerivativeMapLayer::code)
                                 .word("basis", &DerivativeMapLayer::basis)
-                                .part(&DerivativeMapLayer::common);
+                                .part(&DerivativeMapLayer::common)
+                                .finally([](DerivativeMapLayer& layer, const Value& value) {
+                                  refuse_normal_filter(layer.map, value, "a map of slopes");
+                                });
   return table;
 }
 

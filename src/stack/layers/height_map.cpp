@@ -11,6 +11,7 @@ void check_mode(const HeightMapLayer& layer, const Value& value) {
     if (const Member* member = value.find(key))
       value.member(*member).fail("does not apply to this mode", std::string(remedy));
   };
+  refuse_normal_filter(layer.map, value, "a map of heights");
   if (layer.mode == HeightMode::physical) {
     refuse("basis", R"(leave it out, or give "mode": "scale_free")");
     return;

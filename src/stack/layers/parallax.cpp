@@ -10,7 +10,7 @@ void check(const ParallaxLayer& layer, const Value& value) {
   if (layer.limit_offset && layer.method != ParallaxMethod::offset)
     value.member(*value.find("limit_offset"))
         .fail("does not apply to this method", R"(leave it out, or give "method": "offset")");
-  if (layer.map.filter == Filter::nearest)
+  if (layer.map.filter != Filter::bilinear && layer.map.filter != Filter::trilinear)
     value.member(*value.find("filter"))
         .fail("does not apply to heights that are seen from the side",
               "expected one of: bilinear, trilinear");

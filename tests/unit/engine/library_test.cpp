@@ -27,6 +27,8 @@ TEST(MapLibrary, MakesEachCombinationOnce) {
   const auto first = maps.slopes(a, automatic, up);
   EXPECT_EQ(maps.slopes(a, automatic, up), first);
   EXPECT_NE(maps.slopes(a, automatic, stack::Green::down), first);
+  EXPECT_EQ(maps.slopes(a, automatic, up, stack::Filter::anisotropic), first);
+  EXPECT_NE(maps.slopes(a, automatic, up, stack::Filter::normal), first);
   EXPECT_NE(maps.slopes(file_of("b.png"), automatic, up), first);
   EXPECT_NE(maps.directions(a, up), first);
   const auto steep = maps.derivatives(a, {.range = 2}, up);

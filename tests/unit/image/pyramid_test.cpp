@@ -1,11 +1,12 @@
 // What filtering keeps: the mean of a map, hence the tilt of a tilted one.
 
-#include "image/map.hpp"
+#include "image/height_map.hpp"
 #include "support/images.hpp"
 #include "support/map_texels.hpp"
 #include "support/worst.hpp"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <utility>
 #include <vector>
@@ -85,6 +86,58 @@ TEST(Pyramid, OddTexelsShareTheirPartByArea) {
   const Map two = make_channel_map(five, 0); // each half covers two texels and half of the middle one
   EXPECT_FLOAT_EQ(texel(two, 1, 0, 0, 0), 1.5f / 2.5f);
   EXPECT_FLOAT_EQ(texel(two, 1, 1, 0, 0), 0.5f / 2.5f);
+}
+
+TEST(Pyramid, OfMomentsHoldsTheVarianceThatTheSlopesLose) {
+  constexpr std::uint64_t seed = 24;
+  SCOPED_TRACE(seed);
+  test::Random random(seed);
+  test::Worst worst("moments of the last level");
+  for (const Depth depth : {Depth::unorm8, Depth::float32})
+    for (const auto& [width, height] : sizes) {
+      const Map slopes =
+          make_slope_map(test::random_normal_map(random, width, height, 1, depth), NormalChannels::xyz, true)
+              .map;
+      const Map moments = make_slope_moments(slopes);
+      ASSERT_EQ(moments.components, 3);
+      ASSERT_EQ(moments.level_count, slopes.level_count);
+      double sum[3] = {0, 0, 0};
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          const double s = slopes.value(0, x, y, 0), t = slopes.value(0, x, y, 1);
+          const double powers[] = {s * s, t * t, s * t};
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += powers[c] / (width * height);
+        }
+      const int last = moments.level_count - 1;
+      for (int c = 0; c < 3; ++c) // each level rounds numbers of about 1 once to float
+        worst.add(moments.value(last, 0, 0, c), sum[c],
+                  0.5 * std::numeric_limits<float>::epsilon() * moments.level_count, width);
+    }
+}
+
+TEST(Pyramid, IsTheSameForAnyNumberOfThreads) {
+  test::Random random(23);
+  // Odd sides meet the weighted averages, and all are large enough to be cut into blocks.
+  for (const auto& [width, height] : {std::pair{640, 512}, {513, 301}}) {
+    const Image normals = test::random_normal_map(random, width, height, 1, Depth::unorm8);
+    const Image heights = test::random_image(random, width, height, 1);
+    const auto made = [&](std::size_t threads) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      const SlopeMap slopes = make_slope_map(normals, NormalChannels::xyz, true);
+      std::vector<std::vector<std::uint32_t>> words{slopes.map.words};
+      words.push_back(make_encoded_map(normals, NormalChannels::xyz, true).map.words);
+      words.push_back(make_direction_map(normals, true).words);
+      words.push_back(make_derivative_map(normals, 2, true).words);
+      words.push_back(make_channel_map(heights, 0).words);
+      words.push_back(make_height_slopes(heights, 0, {}).words);
+      words.push_back(make_slope_moments(slopes.map).words);
+      words.push_back({static_cast<std::uint32_t>(slopes.inward_texels)});
+      return words;
+    };
+    const auto alone = made(1);
+    EXPECT_EQ(made(2), alone);
+    EXPECT_EQ(made(7), alone);
+  }
 }
 
 } // namespace

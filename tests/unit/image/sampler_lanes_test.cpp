@@ -73,6 +73,20 @@ TEST(SamplerLanes, EqualOneLaneForEveryFormatWrapAndFilter) {
   EXPECT_GT(compared, 0);
 }
 
+TEST(SamplerLanes, KeepTheSignOfAZeroWhateverOthersBlend) {
+  // A lane between no levels must not meet another lane's arithmetic: -0 + 0 is 0.
+  std::vector<float> slopes(2 * 16, -1.0f);
+  slopes[0] = slopes[1] = -0.0f;
+  const Map map = with_pyramid(slopes, 4, 4, 2);
+  EmulatedFloat lod(0.5f);
+  lod.lane[2] = 0;
+  const vec2<EmulatedFloat> st{EmulatedFloat(0.125f), EmulatedFloat(0.125f)};
+  const auto pack = sample<2, EmulatedFloat>(map, st, lod, {}, Filter::trilinear, EmulatedMask(true));
+  const auto one = sample<2, float>(map, {0.125f, 0.125f}, 0.0f, {}, Filter::trilinear, true);
+  EXPECT_TRUE(std::signbit(one[0]));
+  EXPECT_TRUE(std::signbit(pack[0].lane[2]));
+}
+
 TEST(SamplerLanes, TellWhetherAllThatAreActiveAgree) {
   simd::EmulatedIndex index(7);
   EmulatedMask active(true);

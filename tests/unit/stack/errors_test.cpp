@@ -55,9 +55,9 @@ std::string in_parallax(const std::string& keys) {
   return in_document("\"layers\": [ {\"type\": \"parallax\", \"map\": \"h\",\n" + keys + "} ]");
 }
 
-constexpr const char* layer_keys =
-    "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, "
-    "channels, basis, scale, mask, opacity, blend";
+constexpr const char* layer_keys = "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, "
+                                   "anisotropy, tiling, hex_turn, green, "
+                                   "channels, basis, scale, mask, opacity, blend";
 
 const Case not_json[] = {
     {"empty_file", "", 1, "", "is not valid JSON: unexpected end of input",
@@ -208,7 +208,35 @@ const Case wrong_layer[] = {
      3, "layers[0].tiling", "is \"hex\", but whole normals do not turn with the tiles of a map",
      "leave it out"},
     {"filter_word", in_layer("\"filter\": \"linear\""), 5, "layers[0].filter", "is \"linear\"",
-     "did you mean \"bilinear\"? expected one of: nearest, bilinear, trilinear"},
+     "did you mean \"bilinear\"? expected one of: nearest, bilinear, trilinear, anisotropic, normal"},
+    {"anisotropy_of_another_filter", in_layer("\"filter\": \"trilinear\",\n\"anisotropy\": 4"), 6,
+     "layers[0].anisotropy", "does not apply to this filter",
+     "leave it out, or give \"filter\": \"anisotropic\""},
+    {"anisotropy_beyond_16", in_layer("\"filter\": \"anisotropic\",\n\"anisotropy\": 17"), 6,
+     "layers[0].anisotropy", "is 17", "expected a whole number from 1 to 16"},
+    {"anisotropy_of_half_probes", in_layer("\"filter\": \"anisotropic\",\n\"anisotropy\": 2.5"), 6,
+     "layers[0].anisotropy", "is 2.5", "expected a whole number from 1 to 16"},
+    {"normal_filter_of_a_mask", in_mask("\"filter\": \"normal\""), 6, "layers[0].mask.filter",
+     "is \"normal\", but this is a mask", "expected one of: nearest, bilinear, trilinear, anisotropic"},
+    {"normal_filter_of_slopes",
+     in_document("\"layers\": [ {\"type\": \"derivative_map\", \"map\": \"a\",\n\"filter\": \"normal\"} ]"),
+     3, "layers[0].filter", "is \"normal\", but this is a map of slopes",
+     "expected one of: nearest, bilinear, trilinear, anisotropic"},
+    {"normal_filter_of_heights",
+     in_document("\"layers\": [ {\"type\": \"height_map\", \"map\": \"a\",\n\"filter\": \"normal\"} ]"), 3,
+     "layers[0].filter", "is \"normal\", but this is a map of heights",
+     "expected one of: nearest, bilinear, trilinear, anisotropic"},
+    {"normal_filter_of_whole_normals",
+     in_document(
+         "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"filter\": \"normal\"} ]"),
+     3, "layers[0].filter",
+     "is \"normal\", but this is a map of whole normals, which are filtered as they are",
+     "expected one of: nearest, bilinear, trilinear, anisotropic"},
+    {"normal_filter_of_projected_heights",
+     in_document("\"layers\": [ {\"type\": \"planar\", \"map\": \"a\", \"axis\": \"x\", \"content\": "
+                 "\"height\",\n\"filter\": \"normal\"} ]"),
+     3, "layers[0].filter", "is \"normal\", but this is no map of tangent-space normals",
+     "expected one of: nearest, bilinear, trilinear, anisotropic"},
     {"channels_word", in_layer("\"channels\": \"rgb\""), 5, "layers[0].channels", "is \"rgb\"",
      "expected one of: xyz, xy"},
     {"green_case", in_layer("\"green\": \"Up\""), 5, "layers[0].green", "is \"Up\"",
@@ -222,9 +250,10 @@ const Case wrong_layer[] = {
     {"mask_channel", in_mask("\"channel\": \"x\""), 6, "layers[0].mask.channel", "is \"x\"",
      "expected one of: r, g, b, a"},
     {"mask_green", in_mask("\"green\": \"up\""), 6, "layers[0].mask", "unknown key \"green\"",
-     "expected one of: map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, channel"},
+     "expected one of: map, uv, tile, rotate, offset, wrap, filter, anisotropy, tiling, hex_turn, channel"},
     {"mask_key_slip", in_mask("\"chanel\": \"r\""), 6, "layers[0].mask", "unknown key \"chanel\"",
-     "did you mean \"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, tiling, "
+     "did you mean \"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, anisotropy, "
+     "tiling, "
      "hex_turn, channel"},
     {"space_of_a_tangent_map", in_layer("\"space\": \"object\""), 5, "layers[0]", "unknown key \"space\"",
      layer_keys},
@@ -239,7 +268,8 @@ const Case wrong_layer[] = {
      in_document(
          "\"layers\": [ {\"type\": \"object_normal_map\", \"map\": \"a\",\n\"basis\": \"derived\"} ]"),
      3, "layers[0]", "unknown key \"basis\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, space, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, anisotropy, tiling, hex_turn, "
+     "green, space, "
      "scale, "
      "mask, "
      "opacity, blend"},
@@ -256,7 +286,8 @@ const Case wrong_layer[] = {
     {"channels_of_a_derivative_map",
      in_document("\"layers\": [ {\"type\": \"derivative_map\", \"map\": \"a\",\n\"channels\": \"xy\"} ]"), 3,
      "layers[0]", "unknown key \"channels\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, green, range, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, anisotropy, tiling, hex_turn, "
+     "green, range, "
      "neutral, basis, "
      "scale, mask, opacity, blend"},
     {"height_without_a_map", in_document("\"layers\": [\n{\"type\": \"height_map\"} ]"), 3, "layers[0]",
@@ -270,7 +301,8 @@ const Case wrong_layer[] = {
     {"height_taps_number", in_heights("\"taps\": 3"), 3, "layers[0].taps", "is 3",
      "expected one of: one, three, bicubic"},
     {"height_green", in_heights("\"green\": \"up\""), 3, "layers[0]", "unknown key \"green\"",
-     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, tiling, hex_turn, channel, mode, "
+     "expected one of: type, map, uv, tile, rotate, offset, wrap, filter, anisotropy, tiling, hex_turn, "
+     "channel, mode, "
      "height, units, "
      "taps, basis, scale, mask, opacity, blend"},
     {"basis_of_a_physical_height", in_heights("\"basis\": \"derived\""), 3, "layers[0].basis",
@@ -301,6 +333,8 @@ const Case wrong_layer[] = {
     {"parallax_limit_of_occlusion", in_parallax("\"limit_offset\": true"), 3, "layers[0].limit_offset",
      "does not apply to this method", "leave it out, or give \"method\": \"offset\""},
     {"parallax_nearest", in_parallax("\"filter\": \"nearest\""), 3, "layers[0].filter",
+     "does not apply to heights that are seen from the side", "expected one of: bilinear, trilinear"},
+    {"parallax_anisotropic", in_parallax("\"filter\": \"anisotropic\""), 3, "layers[0].filter",
      "does not apply to heights that are seen from the side", "expected one of: bilinear, trilinear"},
     {"resolve_with_a_scale", in_document("\"layers\": [ {\"type\": \"resolve\",\n\"scale\": 1} ]"), 3,
      "layers[0]", "unknown key \"scale\"", "expected one of: type"},
@@ -355,7 +389,7 @@ TEST(StackErrorMessage, is_one_line_that_names_file_line_key_and_remedy) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "dir/stack.json:6: layers[0].mask: unknown key \"chan?el\"; did you mean "
                                "\"channel\"? expected one of: map, uv, tile, rotate, offset, wrap, filter, "
-                               "tiling, hex_turn, channel");
+                               "anisotropy, tiling, hex_turn, channel");
   }
 }
 

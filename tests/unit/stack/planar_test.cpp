@@ -66,11 +66,12 @@ TEST(StackPlanar, names_what_is_wrong) {
             "layers[0].content: is \"object_normal\"; expected one of: normal, derivative, height");
   EXPECT_EQ(fault_of(start + R"("axis": "x", "content": "derivative", "range": 0})"),
             "layers[0].range: is 0; expected a number greater than 0");
-  EXPECT_EQ(fault_of(start + R"("axis": "x", "uv": 1})"),
-            "layers[0]: unknown key \"uv\"; expected one of: type, map, axis, space, content, tile, rotate, "
-            "offset, "
-            "wrap, filter, tiling, hex_turn, channels, green, range, neutral, channel, height, scale, "
-            "mask, opacity, blend");
+  EXPECT_EQ(
+      fault_of(start + R"("axis": "x", "uv": 1})"),
+      "layers[0]: unknown key \"uv\"; expected one of: type, map, axis, space, content, tile, rotate, "
+      "offset, "
+      "wrap, filter, anisotropy, tiling, hex_turn, channels, green, range, neutral, channel, height, scale, "
+      "mask, opacity, blend");
 }
 
 TEST(StackPlanar, reads_one_file_and_no_texture_coordinate_but_its_masks) {

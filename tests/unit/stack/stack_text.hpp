@@ -21,6 +21,7 @@ struct StackText {
     std::string text =
         fmt::format("tile {} {} rotate {} offset {} {} wrap {} filter {}", t.tile.x, t.tile.y, t.rotate_deg,
                     t.offset.x, t.offset.y, static_cast<int>(t.wrap), static_cast<int>(t.filter));
+    if (t.filter == Filter::anisotropic) text += fmt::format(" anisotropy {}", t.anisotropy);
     if (t.tiling == Tiling::hex) text += fmt::format(" hex turn {}", t.hex_turn_deg);
     return text;
   }

@@ -168,7 +168,7 @@ constexpr std::string_view every_key = R"({
     { "type": "resolve" },
     { "type": "object_normal_map", "map": "sub/b.exr", "uv": 1, "tile": [1, 2], "rotate": 1e1,
       "offset": [0, 1], "wrap": "clamp", "filter": "bilinear", "green": "down",
-      "space": "world", "scale": 2, "opacity": 0, "blend": "mix", "mask": { "map": "q.png", "tiling": "hex", "hex_turn": 12.5 } }
+      "space": "world", "scale": 2, "opacity": 0, "blend": "mix", "mask": { "map": "q.png", "tiling": "hex", "hex_turn": 12.5, "filter": "anisotropic", "anisotropy": 16 } }, { "type": "normal_map", "map": "a.png", "filter": "normal", "mask": { "map": "k.png", "filter": "anisotropic" } }
   ],
   "materials": { "skin": [ { "type": "resolve" } ], "Cloth.001": [], "\u00e9toile": [] },
   "camera": { "yaw": -200, "pitch": -90, "zoom": 0.5, "fov": 179.5 },
@@ -189,10 +189,16 @@ green 1
 resolve
 object_normal_map space 1
 scale 2 opacity 0 blend 1
-q.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 2 hex turn 12.5
+q.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 3 anisotropy 16 hex turn 12.5
 channel 0
 sub/b.exr uv 1 tile 1 2 rotate 10 offset 0 1 wrap 2 filter 1
 green 1
+normal_map basis 0 channels 0
+scale 1 opacity 1 blend 0
+k.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 3 anisotropy 8
+channel 0
+a.png uv 0 tile 1 1 rotate 0 offset 0 0 wrap 0 filter 4
+green 0
 material Cloth.001
 material skin
 resolve
