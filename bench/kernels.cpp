@@ -1,5 +1,6 @@
 #include "kernels.hpp"
 
+#include "image/anisotropy.hpp"
 #include "simd/object_scalar.hpp"
 
 #include <surfgrad/gradient.hpp>
@@ -67,6 +68,20 @@ void sample_map(const image::Map& map, const Lookups& lookups, image::Filter fil
   for (int i = begin; i < end; i += lane_count<T>) {
     const V2 st{load<T>(lookups.s + i), load<T>(lookups.t + i)};
     const auto texel = image::sample<2>(map, st, load<T>(lookups.lod + i), {}, filter, mask_t<T>(one == one));
+    store(texel[0], lookups.first + i);
+    store(texel[1], lookups.second + i);
+  }
+}
+
+void sample_anisotropic(const image::Map& map, const Lookups& lookups, int anisotropy, int begin, int end) {
+  const T zero = T(value_t<T>(0));
+  const V2 size{T(static_cast<float>(map.width())), T(static_cast<float>(map.height()))};
+  for (int i = begin; i < end; i += lane_count<T>) {
+    const V2 st{load<T>(lookups.s + i), load<T>(lookups.t + i)};
+    const T width = load<T>(lookups.width + i);
+    const auto footprint =
+        image::footprint_of(V2{constant<T>(anisotropy) * width, zero}, V2{zero, width}, size, anisotropy);
+    const auto texel = image::sample<2>(map, st, footprint, {}, mask_t<T>(zero == zero));
     store(texel[0], lookups.first + i);
     store(texel[1], lookups.second + i);
   }
