@@ -89,7 +89,7 @@ void check_equal(const Pixels& pixels, int count) {
 
 void race_in_cache(const Request& request, int threads) {
   constexpr int tile = 1024;
-  const int repeats = request.quick ? 200 : 4000;
+  constexpr int repeats = 500; // far more than it takes to wake a thread
   std::vector<std::unique_ptr<Pixels>> tiles;
   for (int t = 0; t < threads; ++t) tiles.push_back(std::make_unique<Pixels>(tile));
   check_equal(*tiles[0], tile);
@@ -97,14 +97,13 @@ void race_in_cache(const Request& request, int threads) {
                   threads,   request.rounds};
   std::vector<Contestant> all;
   for (const simd::Isa isa : contestants())
-    all.push_back({std::string(simd::name_of(isa)), [&, kernel = compose_on(isa)] {
-                     return timed([&] {
-                       on_threads(threads, threads, 1, [&](int t, int) {
-                         for (int r = 0; r < repeats; ++r)
-                           kernel(tiles[static_cast<std::size_t>(t)]->planes(), 0, tile, Stores::cached);
-                       });
-                     });
-                   }});
+    all.push_back(
+        {std::string(simd::name_of(isa)), repeated(request.seconds_a_run(), [&, kernel = compose_on(isa)] {
+           on_threads(threads, threads, 1, [&](int t, int) {
+             for (int r = 0; r < repeats; ++r)
+               kernel(tiles[static_cast<std::size_t>(t)]->planes(), 0, tile, Stores::cached);
+           });
+         })});
   const std::vector<Result> results = run(heat, all);
   const Result& fastest = results.back();
   std::vector<double> ns;
@@ -117,13 +116,10 @@ void race_from_memory(const Request& request, const Pixels& pixels, int count, i
   const Heat heat{"compose", "3 layers, from memory", "pixel", double(count), threads, request.rounds};
   const simd::Isa fastest = simd::available_isas().back();
   const auto contestant = [&](std::string name, Kernel kernel, Stores stores) {
-    return Contestant{std::move(name), [&, kernel, stores] {
-                        return timed([&] {
-                          on_threads(threads, count, 1 << 16, [&](int begin, int end) {
-                            kernel(pixels.planes(), begin, end, stores);
-                          });
-                        });
-                      }};
+    return Contestant{std::move(name), repeated(request.seconds_a_run(), [&, kernel, stores] {
+                        on_threads(threads, count, 1 << 16,
+                                   [&](int begin, int end) { kernel(pixels.planes(), begin, end, stores); });
+                      })};
   };
   const std::string isa(simd::name_of(fastest));
   const std::vector<Result> results =

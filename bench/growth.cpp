@@ -10,6 +10,7 @@
 #include "bake/bake.hpp"
 #include "bake_scene.hpp"
 #include "child_process.hpp"
+#include "image/map.hpp"
 #include "render/render.hpp"
 #include "scene/demo_maps.hpp"
 
@@ -275,6 +276,8 @@ void race_sizes(const Request& request) {
   }
   const std::vector<Result> results = run(heat, contestants);
   constexpr double mib = 1024.0 * 1024.0;
+  report_value(heat, "of the memory below: two maps as slopes with mip levels, in floats",
+               2 * 4 * static_cast<double>(image::words_of_map(map_size, map_size, 2)) / mib, "MiB");
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Baked& b = *first[i];
     report_value(heat, fmt::format("{0}x{0}: memory beyond decoded inputs", sizes[i]),

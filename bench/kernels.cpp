@@ -1,5 +1,6 @@
 #include "kernels.hpp"
 
+#include "image/anisotropy.hpp"
 #include "simd/object_scalar.hpp"
 
 #include <surfgrad/gradient.hpp>
@@ -69,6 +70,34 @@ void sample_map(const image::Map& map, const Lookups& lookups, image::Filter fil
     const auto texel = image::sample<2>(map, st, load<T>(lookups.lod + i), {}, filter, mask_t<T>(one == one));
     store(texel[0], lookups.first + i);
     store(texel[1], lookups.second + i);
+  }
+}
+
+void sample_anisotropic(const image::Map& map, const Lookups& lookups, int anisotropy, int begin, int end) {
+  const T zero = T(value_t<T>(0));
+  const V2 size{T(static_cast<float>(map.width())), T(static_cast<float>(map.height()))};
+  for (int i = begin; i < end; i += lane_count<T>) {
+    const V2 st{load<T>(lookups.s + i), load<T>(lookups.t + i)};
+    const T width = load<T>(lookups.width + i);
+    const auto footprint =
+        image::footprint_of(V2{constant<T>(anisotropy) * width, zero}, V2{zero, width}, size, anisotropy);
+    const auto texel = image::sample<2>(map, st, footprint, {}, mask_t<T>(zero == zero));
+    store(texel[0], lookups.first + i);
+    store(texel[1], lookups.second + i);
+  }
+}
+
+void gather_pairs(Words words, const WordPairs& pairs, int begin, int end) {
+  const T one = T(value_t<T>(1));
+  const mask_t<T> everywhere(one == one);
+  for (int i = begin; i < end; i += lane_count<T>) {
+    bits_t<T> sum(0U);
+    for (int k = 0; k < pairs.count; ++k) {
+      const auto two =
+          gather_pair(words, load_index<T>(pairs.at[static_cast<std::size_t>(k)] + i), everywhere);
+      sum = sum + (two[0] + two[1]);
+    }
+    store(T(index_t<T>(sum)), pairs.sums + i);
   }
 }
 

@@ -31,8 +31,16 @@ struct Lookups {
   const float* s;
   const float* t;
   const float* lod;
+  const float* width; ///< of the footprint's short axis, in st
   float* first;
   float* second;
+};
+
+/// Words of a map that lookups read, two neighbours at each index, and where their sums go.
+struct WordPairs {
+  std::array<const std::int32_t*, 4> at{};
+  int count = 0; ///< of the four arrays
+  float* sums = nullptr;
 };
 
 // Pixels and lookups [begin, end): both multiples of 16.
@@ -41,6 +49,10 @@ SURFGRAD_DECLARE_FOR_EACH_ISA(void, compose_planes, (const Planes&, int begin, i
 /// As many streams as compose_planes reads and writes, and one addition for each: memory alone.
 SURFGRAD_DECLARE_FOR_EACH_ISA(void, sum_planes, (const Planes&, int begin, int end, Stores))
 SURFGRAD_DECLARE_FOR_EACH_ISA(void, sample_map, (const image::Map&, const Lookups&, image::Filter, int begin, int end))
+/// The footprint is `anisotropy` times as long along s as its width along t.
+SURFGRAD_DECLARE_FOR_EACH_ISA(void, sample_anisotropic, (const image::Map&, const Lookups&, int anisotropy, int begin, int end))
+/// The loads of texels that sample_map makes, and nothing else.
+SURFGRAD_DECLARE_FOR_EACH_ISA(void, gather_pairs, (Words, const WordPairs&, int begin, int end))
 // clang-format on
 
 } // namespace surfgrad::bench

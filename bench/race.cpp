@@ -14,6 +14,7 @@
 #include <iostream>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 namespace surfgrad::bench {
 namespace {
@@ -41,7 +42,21 @@ Time timed(const std::function<void()>& work) {
   const double cpu = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
   const double wall = seconds_of(CLOCK_MONOTONIC);
   work();
-  return {seconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu, seconds_of(CLOCK_MONOTONIC) - wall};
+  const double passed = seconds_of(CLOCK_MONOTONIC) - wall;
+  // The system books a thread's time when it stops or at a tick: let the others of this process fall asleep.
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return {seconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu, passed};
+}
+
+std::function<Time()> repeated(double seconds, std::function<void()> work) {
+  return [seconds, work = std::move(work), count = 0]() mutable {
+    if (count == 0)
+      count = std::clamp(static_cast<int>(seconds / std::max(timed(work).wall, 1e-9)), 1, 1 << 20);
+    const Time all = timed([&] {
+      for (int i = 0; i < count; ++i) work();
+    });
+    return Time{all.cpu / count, all.wall / count};
+  };
 }
 
 Request parse_request(int argc, char** argv) {

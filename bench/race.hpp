@@ -15,14 +15,21 @@ struct Time {
   double wall = 0;
 };
 
-/// Runs the work and takes its time.
+/// Runs the work and takes its time. No other thread of the process must be at work.
 [[nodiscard]] Time timed(const std::function<void()>& work);
+
+/// A run for a contestant: the work over and over, as often as takes this many seconds the first time, and
+/// the time of one.
+[[nodiscard]] std::function<Time()> repeated(double seconds, std::function<void()> work);
 
 /// What a program of this folder was asked for: [--quick] [--threads N].
 struct Request {
   bool quick = false;             ///< small sizes and few rounds: does it run, not how fast
   std::vector<int> threads{1, 2}; ///< thread counts to race with
   int rounds = 7;
+
+  /// A run of a small kernel takes this long: the processor clock of threads ticks in milliseconds.
+  [[nodiscard]] double seconds_a_run() const { return quick ? 0.02 : 0.15; }
 };
 [[nodiscard]] Request parse_request(int argc, char** argv);
 
