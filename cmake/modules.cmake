@@ -51,6 +51,16 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   set(SURFGRAD_FLAGS_neon "")
 endif()
 
+# A pack handed to a function that is not inlined goes through memory: kernels are inlined whole.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(SURFGRAD_INLINE_FLAGS "SHELL:--param max-inline-insns-auto=1000" "SHELL:--param max-inline-insns-single=3000"
+    "SHELL:--param inline-unit-growth=300" "SHELL:--param large-function-growth=2000"
+    "SHELL:--param large-function-insns=20000" "SHELL:--param large-stack-frame-growth=10000"
+    "SHELL:--param large-unit-insns=100000")
+else()
+  set(SURFGRAD_INLINE_FLAGS "SHELL:-mllvm -inline-threshold=3000")
+endif()
+
 # surfgrad_for_each_isa(NAME SOURCES ... [DEPENDS modules...]): adds sources to a module once for each
 # instruction set. Optimised in every build type, and never instrumented: a kernel that is not inlined
 # could leave functions behind that the linker gives to processors without the instruction set.
@@ -64,7 +74,7 @@ function(surfgrad_for_each_isa NAME)
     target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} surfgrad_options)
     target_compile_definitions(${target} PRIVATE SURFGRAD_ISA_NAMESPACE=${isa} HWY_COMPILE_ONLY_STATIC)
     if(isa IN_LIST SURFGRAD_VECTOR_ISAS)
-      target_compile_options(${target} PRIVATE ${SURFGRAD_FLAGS_${isa}} -O3 -fno-sanitize=all)
+      target_compile_options(${target} PRIVATE ${SURFGRAD_FLAGS_${isa}} -O3 -fno-sanitize=all ${SURFGRAD_INLINE_FLAGS})
     else()
       target_compile_definitions(${target} PRIVATE SURFGRAD_ISA_IS_PLAIN=1)
     endif()
