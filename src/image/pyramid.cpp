@@ -1,5 +1,7 @@
 #include "image/pyramid.hpp"
 
+#include "simd/lane.hpp"
+
 #include "image/parallel.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -191,7 +193,7 @@ Map with_pyramid(Texels texels, int width, int height, int components, TexelCode
   map.scale = code.scale;
   const std::int64_t words = words_of_map(width, height, map.texel_words());
   assert(words <= std::numeric_limits<std::int32_t>::max());
-  map.words.resize(static_cast<std::size_t>(words));
+  map.words.resize(static_cast<std::size_t>(words + words_read_ahead));
   for (std::int64_t first = 0;;) {
     map.level_table.insert(map.level_table.end(),
                            {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),

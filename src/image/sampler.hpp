@@ -170,10 +170,16 @@ struct Texels<TexelFormat::floats, N> {
   static TexelPair<N, T> pair(Words map, bits_t<T> word, mask_t<T> active) {
     // Both texels are 2 N words one after the other.
     TexelPair<N, T> result;
-    for (int k = 0; k < N; ++k) {
-      const auto two = gather_pair(map, index_t<T>(index_t<T>(word) + index_constant<T>(2 * k)), active);
-      result[2 * k / N][2 * k % N] = float_from_bits<T>(two[0]);
-      result[(2 * k + 1) / N][(2 * k + 1) % N] = float_from_bits<T>(two[1]);
+    const auto put = [&](int first, const auto& read) {
+      for (int k = 0; k < static_cast<int>(read.size()); ++k)
+        result[(first + k) / N][(first + k) % N] = float_from_bits<T>(read[k]);
+    };
+    const auto at = [&](int k) { return index_t<T>(index_t<T>(word) + index_constant<T>(k)); };
+    if constexpr (N == 1) {
+      put(0, gather_words<2>(map, at(0), active));
+    } else {
+      put(0, gather_words<4>(map, at(0), active));
+      if constexpr (N == 3) put(4, gather_words<2>(map, at(4), active));
     }
     return result;
   }
@@ -188,7 +194,7 @@ struct Texels<TexelFormat::slope16, 2> {
   }
   template <LaneScalar T>
   static TexelPair<2, T> pair(Words map, bits_t<T> word, mask_t<T> active) {
-    const auto two = gather_pair(map, index_t<T>(word), active);
+    const auto two = gather_words<2>(map, index_t<T>(word), active);
     return {slope_codes<T>(two[0]), slope_codes<T>(two[1])};
   }
 };

@@ -1,7 +1,7 @@
 #pragma once
 
 /// What lanes have to do with each other and with memory beyond the core's needs. A pack supplies `lane`,
-/// `with_lane` and `same_in_all` in its own namespace, may supply a faster `gather_pair`, and specialises
+/// `with_lane` and `same_in_all` in its own namespace, may supply a faster `gather_words`, and specialises
 /// `lane_count` and `LaneArrays`.
 
 #include <surfgrad/scalar.hpp>
@@ -60,10 +60,15 @@ constexpr void store(T a, value_t<T>* to) {
   return true;
 }
 
-/// The words at `index` and behind it, as gather reads them.
-template <class Index, class Mask>
-[[nodiscard]] auto gather_pair(Words words, const Index& index, const Mask& active) {
-  return std::array{gather(words, index, active), gather(words, Index(index + Index(1)), active)};
+/// Words that packs may read beyond those asked for: arrays end with as many that nobody uses.
+inline constexpr int words_read_ahead = 3;
+
+/// The words at `index` and behind it, up to four, as gather reads them.
+template <int Count, class Index, class Mask>
+[[nodiscard]] auto gather_words(Words words, const Index& index, const Mask& active) {
+  std::array<decltype(gather(words, index, active)), Count> result;
+  for (int k = 0; k < Count; ++k) result[k] = gather(words, Index(index + Index(k)), active);
+  return result;
 }
 
 } // namespace surfgrad
