@@ -56,20 +56,22 @@ void for_each_covered_pixel(const Tile& tile, const TrianglePlanes& planes, cons
 } // namespace
 
 void TileScan::drop_hidden() {
+  for (const int owner : owners_)
+    if (owner != nothing) ++shown_[static_cast<std::size_t>(owner)].pixels;
   renumbered_.resize(shown_.size());
   int kept = 0;
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     renumbered_[i] = kept;
     if (shown_[i].pixels == 0) continue;
     shown_[static_cast<std::size_t>(kept)] = shown_[i];
-    shown_[static_cast<std::size_t>(kept++)].pixels = 0;
+    shown_[static_cast<std::size_t>(kept++)].first_pixel = nothing;
   }
   shown_.erase(shown_.begin() + kept, shown_.end());
   for (std::size_t i = 0; i < owners_.size(); ++i) {
     if (owners_[i] == nothing) continue;
     owners_[i] = renumbered_[static_cast<std::size_t>(owners_[i])];
     Shown& shown = shown_[static_cast<std::size_t>(owners_[i])];
-    if (shown.pixels++ == 0) shown.first_pixel = static_cast<int>(i);
+    if (shown.first_pixel == nothing) shown.first_pixel = static_cast<int>(i);
   }
 }
 
@@ -90,30 +92,28 @@ void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& proj
     if (skip && skip(id, planes.counter_clockwise() != surface.mirrored)) continue;
     const auto own = static_cast<int>(shown_.size());
     bool seen = false;
-    const auto take = [&](int i) {
-      int& owner = owners_[static_cast<std::size_t>(i)];
-      if (owner != nothing && owner != own) --shown_[static_cast<std::size_t>(owner)].pixels;
-      owner = own;
-      if (!seen) shown_.push_back({id, planes, i, 0});
-      seen = true;
-      ++shown_.back().pixels;
-    };
     if (projection.has_depth()) {
+      const double near = projection.near();
       for_each_covered_pixel(tile, planes, [&](int i, double x, double y) {
         const double inverse_w = planes.inverse_w(x, y);
         double& nearest = nearest_[static_cast<std::size_t>(i)];
-        if (inverse_w * projection.near() > 1 || !(inverse_w > nearest)) return;
-        nearest = inverse_w;
-        take(i);
+        int& owner = owners_[static_cast<std::size_t>(i)];
+        // Without branches: depths are in no order.
+        const bool nearer = (inverse_w > nearest) & !(inverse_w * near > 1);
+        nearest = nearer ? inverse_w : nearest;
+        owner = nearer ? own : owner;
+        seen = seen | nearer;
       });
     } else {
       for_each_covered_pixel(tile, planes, [&](int i, double, double) {
         unsigned char& covered = covered_[static_cast<std::size_t>(i)];
-        if (covered == 0) take(i);
+        if (covered == 0) owners_[static_cast<std::size_t>(i)] = own;
+        seen = seen | (covered == 0);
         if (covered == 1) ++overlapping_;
         if (covered < 2) ++covered;
       });
     }
+    if (seen) shown_.push_back({id, planes, nothing, 0});
   }
   drop_hidden();
 }

@@ -31,13 +31,18 @@ void set_up(const Surface& surface, std::uint32_t triangle, const TrianglePlanes
   setup.qx = narrowed(q.x);
   setup.qy = narrowed(q.y);
   setup.front_facing = planes.counter_clockwise() != surface.mirrored ? 1.0f : 0.0f;
-  const vec3<double> flat = triangle_normal(surface, triangle);
+  const std::array<vec3<double>, 3> normals{surface.normals[vertices[0]], surface.normals[vertices[1]],
+                                            surface.normals[vertices[2]]};
+  // Normals within a right angle of each other never cancel: nobody asks for the triangle's own.
+  const bool may_cancel = !(dot(normals[0], normals[1]) > 0 && dot(normals[1], normals[2]) > 0 &&
+                            dot(normals[2], normals[0]) > 0);
+  const vec3<double> flat = may_cancel ? triangle_normal(surface, triangle) : vec3<double>{0, 0, 0};
   setup.flat_normal = {narrowed(flat.x), narrowed(flat.y), narrowed(flat.z)};
   setup.position = planes_of(b, [&](std::size_t i) { return surface.positions[vertices[i]]; });
   const mesh::TriangleMesh& mesh = *surface.mesh;
   const auto& rest = mesh.rest_positions.empty() ? mesh.positions : mesh.rest_positions;
   setup.object_position = planes_of(b, [&](std::size_t i) { return rest[vertices[i]]; });
-  setup.normal = planes_of(b, [&](std::size_t i) { return surface.normals[vertices[i]]; });
+  setup.normal = planes_of(b, [&](std::size_t i) { return normals[i]; });
   for (std::size_t s = 0; s < surface.slots.size(); ++s) {
     const Surface::Coordinates& slot = surface.slots[s];
     TriangleSetup::Coordinates& out = setup.slots[s];

@@ -21,7 +21,7 @@ struct TriangleSetup {
   float x, y;              ///< the centre, in pixels
   float qx, qy;            ///< relative change of 1 / w; zero in a texture
   float front_facing;      ///< 1 or 0
-  vec3<float> flat_normal; ///< the triangle's own, unit
+  vec3<float> flat_normal; ///< the triangle's own, unit; zero where vertex normals cannot cancel
   std::array<Plane, 3> position, object_position, normal;
   struct Coordinates {
     std::array<Plane, 2> st;
