@@ -155,7 +155,10 @@ const ComposedTile& TileComposer::compose(int column, int row) {
   }
   s.composed.tile = grid_.tile(column, row);
   s.scan.scan(stage_.surfaces(), projection_, s.composed.tile, grid_.candidates(column, row),
-              [&](const raster::TriangleId& id, bool front) { return stage_.culled(id, front); });
+              [&](const raster::TriangleId& id, bool front) {
+                // Winding in a texture says mirrored, not turned away.
+                return projection_.has_depth() && stage_.culled(id, front);
+              });
   s.composed.overlapping = s.scan.overlapping();
   collect(s);
   s.runs.clear();
