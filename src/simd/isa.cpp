@@ -29,7 +29,13 @@ constexpr std::array named {
 #endif
 };
 
-bool runs(const Named& isa) { return isa.target == 0 || (hwy::SupportedTargets() & isa.target) != 0; }
+/// Asked once: inside a virtual machine the question takes tens of microseconds.
+std::int64_t supported_targets() {
+  static const std::int64_t targets = hwy::SupportedTargets();
+  return targets;
+}
+
+bool runs(const Named& isa) { return isa.target == 0 || (supported_targets() & isa.target) != 0; }
 
 constexpr int nothing_forced = -1;
 std::atomic<int> forced{nothing_forced};
@@ -49,13 +55,13 @@ std::string words_of(const std::vector<Isa>& isas) {
                      words_of(available_isas()));
 }
 
-/// Without the list of them, which would be allocated for every tile.
-Isa fastest() { return std::find_if(named.rbegin(), named.rend(), runs)->isa; }
-
 /// Asked for by the environment, else the fastest.
 Isa wanted() {
   const char* word = std::getenv("SURFGRAD_ISA");
-  if (word == nullptr || *word == '\0') return fastest();
+  if (word == nullptr || *word == '\0') {
+    static const Isa fastest = available_isas().back();
+    return fastest;
+  }
   for (const Named& n : named)
     if (n.name == word) {
       if (!runs(n)) fail_lacking(n.name);
