@@ -113,7 +113,8 @@ struct Level {
 template <LaneScalar T>
 [[nodiscard]] Level<T> level_of(const Map& map, std::int32_t level) {
   const std::uint32_t* row = &map.level_table[3 * static_cast<std::size_t>(level)];
-  const auto lanes = [](std::uint32_t v) { return bits_t<T>(index_constant<T>(static_cast<int>(v))); };
+  // Every bit of them: words of a large map lie beyond the whole numbers that a float holds.
+  const auto lanes = [](std::uint32_t v) { return surfgrad::detail::bits_constant<T>(v); };
   return {T(static_cast<value_t<T>>(row[0])), T(static_cast<value_t<T>>(row[1])), lanes(row[0] + 1),
           lanes(row[2])};
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace surfgrad::stage {
 
@@ -63,7 +64,7 @@ class Arrays {
   std::size_t used_ = 0;
 };
 
-constexpr std::size_t most_arrays = 21; // of TileWork::Results
+constexpr std::size_t most_arrays = 23; // of TileWork::Results
 
 engine::TileWork::Results results_of(const Outputs& outputs, std::vector<float>& storage,
                                      std::size_t length) {
@@ -111,10 +112,10 @@ void TileComposer::collect(Scratch& s) const {
   std::iota(s.order.begin(), s.order.end(), 0u);
   const auto key = [&](std::uint32_t i) {
     const raster::TriangleId& id = shown[i].id;
-    return std::pair(id.surface, stage_.material_of(id));
+    return std::tuple(id.surface, stage_.material_of(id), i); // all differ: a stable sort would allocate
   };
-  std::stable_sort(s.order.begin(), s.order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  std::sort(s.order.begin(), s.order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
   s.next.resize(shown.size());
   int first = 0;
   for (const std::uint32_t i : s.order) {
@@ -154,7 +155,10 @@ const ComposedTile& TileComposer::compose(int column, int row) {
   }
   s.composed.tile = grid_.tile(column, row);
   s.scan.scan(stage_.surfaces(), projection_, s.composed.tile, grid_.candidates(column, row),
-              [&](const raster::TriangleId& id, bool front) { return stage_.culled(id, front); });
+              [&](const raster::TriangleId& id, bool front) {
+                // Winding in a texture says mirrored, not turned away.
+                return projection_.has_depth() && stage_.culled(id, front);
+              });
   s.composed.overlapping = s.scan.overlapping();
   collect(s);
   s.runs.clear();

@@ -18,6 +18,7 @@ using surfgrad::test::Random;
 class Lab {
  public:
   void add(const std::filesystem::path& name, image::Image image) { images_[name] = std::move(image); }
+  [[nodiscard]] const std::map<std::filesystem::path, image::Image>& images() const { return images_; }
 
   [[nodiscard]] Program compile(const std::vector<stack::Layer>& layers) const {
     std::vector<raster::UvSlot> slots{{0, true}, {1, true}};

@@ -87,6 +87,40 @@ TEST(SamplerLanes, KeepTheSignOfAZeroWhateverOthersBlend) {
   EXPECT_TRUE(std::signbit(pack[0].lane[2]));
 }
 
+/// A map of two levels, the second behind so many words that their number is no float: as a mask of 4096x4096
+/// texels has them.
+Map map_beyond_the_whole_numbers_of_float() {
+  constexpr std::uint32_t first = (1u << 24) + 3;
+  Map map;
+  map.components = 1;
+  map.level_count = 2;
+  map.level_table = {2, 1, 0, 4, 3, first};
+  map.words.resize(first + 5 * 4, 0);
+  for (std::uint32_t i = 0; i < 5 * 4; ++i) // rows and the column of copies: each texel its own value
+    map.words[first + i] = std::bit_cast<std::uint32_t>(static_cast<float>(i + 1));
+  return map;
+}
+
+TEST(SamplerLanes, ReadTheTexelsOfLargeMaps) {
+  const Map map = map_beyond_the_whole_numbers_of_float();
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 4; ++x) {
+      const float s = (static_cast<float>(x) + 0.5f) / 4;
+      const float t = (static_cast<float>(y) + 0.5f) / 3;
+      const float expected = static_cast<float>(5 * y + x + 1);
+      // To float rounding: centres of thirds are no floats.
+      EXPECT_NEAR((sample<1, float>(map, {s, t}, 1.0f, {}, Filter::trilinear, true)[0]), expected, 1e-5);
+      EXPECT_NEAR((sample<1, double>(map, {s, t}, 1.0, {}, Filter::trilinear, true)[0]), expected, 1e-5);
+      EmulatedFloat lod(1.0f);
+      for (const float other : {1.0f, 0.0f}) { // all lanes of one level, and not
+        lod.lane[2] = other;
+        const auto pack = sample<1, EmulatedFloat>(map, {EmulatedFloat(s), EmulatedFloat(t)}, lod, {},
+                                                   Filter::trilinear, EmulatedMask(true));
+        EXPECT_NEAR(pack[0].lane[5], expected, 1e-5);
+      }
+    }
+}
+
 TEST(SamplerLanes, TellWhetherAllThatAreActiveAgree) {
   simd::EmulatedIndex index(7);
   EmulatedMask active(true);
