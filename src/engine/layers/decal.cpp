@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace surfgrad::engine {
 namespace {
@@ -133,6 +134,36 @@ Decals compiled(const stack::DecalLayer& layer, const Compiler& compiler) {
   }
   decals.grid = DecalGrid(std::move(bounds));
   return decals;
+}
+
+std::span<const std::uint32_t> decals_near(const DecalGrid& grid, const LanePlaces& places,
+                                           vec3<double> origin, double epsilon) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<vec3<double>, most_lanes> somewhere;
+  std::size_t count = 0;
+  vec3<double> low{infinity, infinity, infinity};
+  vec3<double> high = -low;
+  double pixel = 0;
+  for (int i = 0; i < places.count; ++i) {
+    const vec3<double> p{places.x[i], places.y[i], places.z[i]};
+    if (!(max_abs(p) < infinity)) continue;
+    somewhere[count++] = p;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    pixel = std::max(pixel, places.pixel[i]);
+  }
+  if (count == 0) return {};
+  // A decal's origin relative to the places' is rounded in their scalar, and before that in double.
+  const double rounding =
+      16 * epsilon * std::max(max_abs(low), max_abs(high)) + 8 * epsilon_v<double> * max_abs(origin);
+  const vec3<double> room{rounding, rounding, rounding};
+  // About as far as a tile of pixels extends. Lanes farther apart lie on unrelated parts of a surface.
+  const double reach = 64 * pixel;
+  if (max_abs(high - low) <= 2 * reach) return grid.near({low + origin - room, high + origin + room}, reach);
+  std::array<Bounds, most_lanes> where;
+  for (std::size_t i = 0; i < count; ++i)
+    where[i] = {somewhere[i] + origin - room, somewhere[i] + origin + room};
+  return grid.search({where.data(), count});
 }
 
 } // namespace surfgrad::engine

@@ -10,7 +10,6 @@
 #include <surfgrad/decal.hpp>
 #include <surfgrad/resolve.hpp>
 
-#include <limits>
 #include <span>
 
 namespace surfgrad::engine {
@@ -60,7 +59,8 @@ template <Scalar T>
 
 namespace detail {
 
-/// What a decal adds at a point, in the space of the decals. Zero outside.
+/// What a decal adds at a point, in the space of the decals. Zero outside; nothing but `inside` is set where
+/// no lane is inside.
 template <class T>
 struct DecalBump {
   vec3<T> gradient; ///< volume gradient of its bumps
@@ -71,8 +71,15 @@ struct DecalBump {
 };
 
 template <LaneScalar T>
+[[nodiscard]] DecalBump<T> nowhere(mask_t<T> inside) {
+  const T zero = T(value_t<T>(0));
+  return {{zero, zero, zero}, {zero, zero, zero}, zero, inside, inside};
+}
+
+template <LaneScalar T>
 [[nodiscard]] DecalBump<T> image_bump(const Decals& layer, const Decal& decal,
                                       const DecalProjection<T>& projection, const SpacePoint<T>& at) {
+  if (!any(projection.inside)) return nowhere<T>(projection.inside);
   const auto footprint = projected_derivatives(projection.grad_s, projection.grad_t, at.dp_dx, at.dp_dy);
   const vec2<T> d =
       saturated(derivative(layer.bumps, projection.texture_coordinate, footprint.dst_dx, footprint.dst_dy));
@@ -87,6 +94,7 @@ template <LaneScalar T>
 [[nodiscard]] DecalBump<T> cube_bump(const Decals& layer, const DecalFrame<T>& frame,
                                      const DecalDirection<T>& direction, vec3<T> from_centre,
                                      const SpacePoint<T>& at) {
+  if (!any(direction.inside)) return nowhere<T>(direction.inside);
   const auto in_decal = [&](vec3<T> v) {
     const vec3<T> across = v - dot(v, direction.unchanging) * direction.unchanging;
     return vec3<T>{dot(across, frame.axis_x), dot(across, frame.axis_y), dot(across, frame.axis_z)};
@@ -161,24 +169,27 @@ template <LaneScalar T>
 /// Applies some of a layer's decals.
 ///
 /// which       their numbers, ascending: at least all that reach the point
+/// at          surface_in_space
 /// degenerate  (out) set where object space is wanted of an object whose transform has no inverse: no decal
 ///             is there. Set within a sphere or capsule where there is no direction from its centre, or
 ///             none in its map; the decal is flat there
 template <LaneScalar T>
-void apply(const Decals& layer, std::span<const std::uint32_t> which, const Point<T>& point, vec3<T>& sum,
-           mask_t<T>& degenerate) {
+void apply(const Decals& layer, std::span<const std::uint32_t> which, const Point<T>& point,
+           const SpacePoint<T>& at, vec3<T>& sum, mask_t<T>& degenerate) {
   const mask_t<T> lacking = lacks_space(point, layer.world); // no place to look from
   degenerate = degenerate | lacking;
-  if (which.empty()) return;
   const T one = T(value_t<T>(1));
-  const SpacePoint<T> at = surface_in_space(point, layer.world);
   const vec3<double> origin = layer.world ? point.placement.origin : vec3<double>{0, 0, 0};
-  const T mask = layer.mask ? sample<1>(*layer.mask, point.fragment)[0] : one;
+  T mask = one;
+  bool met = false; // uniform: a decal has a lane inside
   detail::DecalSum<T> waiting = detail::no_decals<T>();
   for (const std::uint32_t i : which) {
     const Decal& decal = layer.decals[i];
     detail::DecalBump<T> bump = detail::bump_of(layer, decal, at, origin);
     bump.inside = bump.inside & !lacking;
+    if (!any(bump.inside)) continue;
+    if (!met && layer.mask) mask = sample<1>(*layer.mask, point.fragment)[0];
+    met = true;
     degenerate = degenerate | bump.degenerate;
     const T w = bump.falloff * mask * constant<T>(decal.opacity);
     if (decal.blend == stack::DecalBlend::replace) {
@@ -202,35 +213,49 @@ void apply(const Decals& layer, std::span<const std::uint32_t> which, const Poin
     waiting = {select(bump.inside, keep * waiting.factor, waiting.factor),
                select<T>(bump.inside, gradient, waiting.gradient), mask_t<T>(waiting.any | bump.inside)};
   }
-  sum = detail::projected(point, layer.world, waiting, sum);
+  if (met) sum = detail::projected(point, layer.world, waiting, sum);
 }
 
-/// The decals that may reach the point, of any of its lanes.
+/// Where the lanes of a point are, in the space of the decals, and how large their pixels.
+struct LanePlaces {
+  double x[most_lanes], y[most_lanes], z[most_lanes], pixel[most_lanes];
+  int count;
+};
+
+/// The decals that may reach any of the lanes; see DecalGrid::near. Lanes that are nowhere (Inf, NaN) count
+/// for none.
+///
+/// origin   that the places are relative to
+/// epsilon  of the scalar that the decals are met in
+[[nodiscard]] std::span<const std::uint32_t> decals_near(const DecalGrid& grid, const LanePlaces& places,
+                                                         vec3<double> origin, double epsilon);
+
+/// The decals that may reach a point, of any of its lanes.
+///
+/// at  surface_in_space
 template <LaneScalar T>
-[[nodiscard]] std::span<const std::uint32_t> decals_near(const Decals& layer, const Point<T>& point) {
-  const SpacePoint<T> at = surface_in_space(point, layer.world);
-  const vec3<double> origin = layer.world ? point.placement.origin : vec3<double>{0, 0, 0};
-  std::array<Bounds, lane_count<T>> where{};
-  std::size_t count = 0;
-  for (int i = 0; i < lane_count<T>; ++i) {
-    const vec3<double> p{static_cast<double>(lane(at.position.x, i)),
-                         static_cast<double>(lane(at.position.y, i)),
-                         static_cast<double>(lane(at.position.z, i))};
-    const double far = max_abs(p);
-    if (!(far < std::numeric_limits<double>::infinity())) continue; // nowhere
-    // A decal's origin relative to the placement's is rounded in T, and before that in double.
-    const double rounding =
-        16 * static_cast<double>(epsilon_v<T>) * far + 8 * epsilon_v<double> * max_abs(origin);
-    const vec3<double> room{rounding, rounding, rounding};
-    where[count++] = {p + origin - room, p + origin + room};
-  }
-  return layer.grid.search({where.data(), count});
+[[nodiscard]] std::span<const std::uint32_t> decals_near(const Decals& layer, const Point<T>& point,
+                                                         const SpacePoint<T>& at) {
+  LanePlaces places;
+  places.count = lane_count<T>;
+  const auto put = [](T a, double* to) {
+    value_t<T> values[lane_count<T>];
+    store(a, values);
+    for (int i = 0; i < lane_count<T>; ++i) to[i] = static_cast<double>(values[i]);
+  };
+  put(at.position.x, places.x);
+  put(at.position.y, places.y);
+  put(at.position.z, places.z);
+  put(max(max_abs(at.dp_dx), max_abs(at.dp_dy)), places.pixel);
+  return decals_near(layer.grid, places, layer.world ? point.placement.origin : vec3<double>{0, 0, 0},
+                     static_cast<double>(epsilon_v<T>));
 }
 
 /// Decals join the sum of the pass: their volume gradients are accumulated first and projected once.
 template <LaneScalar T>
 void apply(const Decals& layer, Point<T>& point, vec3<T>& sum, mask_t<T>& degenerate) {
-  apply(layer, decals_near(layer, point), point, sum, degenerate);
+  const SpacePoint<T> at = surface_in_space(point, layer.world);
+  apply(layer, decals_near(layer, point, at), point, at, sum, degenerate);
 }
 
 } // namespace surfgrad::engine

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 namespace surfgrad::engine {
@@ -62,6 +63,48 @@ TEST(DecalGrids, FindWhatALookAtEveryBoxFinds) {
   }
   std::printf("  boxes found in 12000 searches: %zu\n", hits);
   EXPECT_GT(hits, 6000u);
+}
+
+TEST(DecalGrids, FindTheSameFromPlaceToPlace) {
+  constexpr std::uint64_t seed = 304;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  // More lists in use at a time than a thread remembers, copies and lists that took another's place.
+  std::vector<std::vector<Bounds>> boxes(40);
+  std::vector<DecalGrid> grids(40);
+  std::size_t hits = 0;
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+      boxes[g].clear();
+      for (int i = 0; i < 60; ++i) {
+        const double half = random.magnitude(1e-3, 2);
+        boxes[g].push_back(around(random.vector3(-2, 2), half * random.vector3(0.1, 1)));
+      }
+      grids[g] = DecalGrid(boxes[g]);
+    }
+    for (const double reach : {0.0, 1e-3, 0.1, 10.0, 1e300, std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()})
+      for (int walk = 0; walk < 20; ++walk) {
+        const std::size_t g = random.bits() % grids.size();
+        const std::size_t other = random.bits() % grids.size();
+        const DecalGrid copy = grids[g];
+        vec3<double> p = random.vector3(-2, 2);
+        for (int step = 0; step < 50; ++step) {
+          p = p + random.magnitude(1e-4, 0.1) * random.vector3();
+          const double half = random.magnitude(1e-6, 0.1);
+          const Bounds where = around(p, half * random.vector3(0, 1));
+          using Use = std::pair<const DecalGrid*, std::size_t>;
+          for (const auto& [grid, list] : {Use(&grids[g], g), Use(&copy, g), Use(&grids[other], other)}) {
+            const auto found = grid->near(where, reach);
+            ASSERT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()),
+                      all_that_meet(boxes[list], {where}));
+            hits += found.size();
+          }
+        }
+      }
+  }
+  std::printf("  boxes found from place to place: %zu\n", hits);
+  EXPECT_GT(hits, 10000u);
 }
 
 TEST(DecalGrids, HoldTheirBordersAtCellBorders) {
@@ -131,6 +174,11 @@ struct DecalLists : ::testing::Test {
   }
 };
 
+template <class T>
+std::span<const std::uint32_t> near(const Decals& decals, const Point<T>& point) {
+  return decals_near(decals, point, surface_in_space(point, decals.world));
+}
+
 /// Applied by way of the grid and by trying every decal: the same bits.
 template <class T>
 bool expect_same(const Decals& decals, const Placement& placement, const raster::Fragment<T>& f) {
@@ -142,7 +190,7 @@ bool expect_same(const Decals& decals, const Placement& placement, const raster:
   apply(decals, point, found, degenerate);
   std::vector<std::uint32_t> every(decals.decals.size());
   std::iota(every.begin(), every.end(), 0u);
-  apply(decals, std::span<const std::uint32_t>(every), point, tried, degenerate);
+  apply(decals, every, point, surface_in_space(point, decals.world), tried, degenerate);
   EXPECT_EQ(std::memcmp(&found, &tried, sizeof found), 0)
       << found.x << " " << found.y << " " << found.z << " against " << tried.x << " " << tried.y << " "
       << tried.z;
@@ -245,9 +293,9 @@ TEST_F(DecalLists, CostWhatCoversTheFragment) {
   const Placement placement = test::placed(test::identity);
   const auto f = fragment_at<double>({0.1, 5.1, 0.1}, {0, 1, 0});
   const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), true, 1, placement};
-  ASSERT_EQ(decals_near(one, point).size(), 1u);
-  ASSERT_EQ(decals_near(thousand, point).size(), 1u);
-  EXPECT_EQ(decals_near(thousand, point)[0], 505u);
+  ASSERT_EQ(near(one, point).size(), 1u);
+  ASSERT_EQ(near(thousand, point).size(), 1u);
+  EXPECT_EQ(near(thousand, point)[0], 505u);
   EXPECT_LE(thousand.grid.most_looks(), 9u) << "one layer of cells, three a side";
 }
 
@@ -258,7 +306,7 @@ TEST_F(DecalLists, AreNotReachedByPositionsThatAreNoNumbers) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const auto f = fragment_at<double>({0, no, 0}, {0, 1, 0});
     const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), true, 1, placement};
-    EXPECT_TRUE(decals_near(decals, point).empty());
+    EXPECT_TRUE(near(decals, point).empty());
   }
 }
 
