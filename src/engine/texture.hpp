@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 namespace surfgrad::engine {
 
@@ -49,6 +50,27 @@ template <Scalar T>
 template <Scalar T>
 [[nodiscard]] vec2<T> map_coordinate(const TiledMap& tiled, vec2<T> st) {
   return in_map(tiled, st) + vec2<T>{constant<T>(tiled.offset.x), constant<T>(tiled.offset.y)};
+}
+
+/// A coordinate st relative to a point of the plane.
+template <class T>
+struct PlanePlace {
+  vec2<T> st;
+  vec2<double> origin; ///< uniform: may lie far from where the plane's coordinates begin
+
+  PlanePlace(vec2<T> place, vec2<double> from = {0, 0}) : st(place), origin(from) {} // NOLINT: any coordinate
+};
+
+/// Where the map is read for a point of the plane: st', less the whole periods of the map. Hex tiles have
+/// none: for them it is st' itself.
+[[nodiscard]] vec2<double> map_origin(const TiledMap& tiled, vec2<double> point);
+
+/// The same as st' for what the map shows, and exact near the place's origin however far away that is.
+template <Scalar T>
+[[nodiscard]] vec2<T> map_coordinate(const TiledMap& tiled, const PlanePlace<T>& place) {
+  if (place.origin.x == 0 && place.origin.y == 0) return map_coordinate(tiled, place.st);
+  const vec2<double> origin = map_origin(tiled, place.origin);
+  return in_map(tiled, place.st) + vec2<T>{constant<T>(origin.x), constant<T>(origin.y)};
 }
 
 /// Mip level for a footprint on the plane of st.
@@ -165,8 +187,8 @@ template <int N, LaneScalar T>
 /// The components of a map of values at a coordinate, filtered for a footprint: weights, heights. What
 /// has a direction in the plane is turned with its tile: sample_slopes and sample_height_slopes.
 template <int N, LaneScalar T>
-[[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
-                                      vec2<T> footprint_dy) {
+[[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
+                                      vec2<T> footprint_dx, vec2<T> footprint_dy) {
   // A tile turns where texels are square: the footprint's axes are as long in it.
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
   const vec2<T> here = map_coordinate(tiled, st);
@@ -184,8 +206,8 @@ template <int N, LaneScalar T>
 /// The slopes of a map of slopes along st' (along_coordinate takes them to st). Of hex tiles the steeper
 /// prevail.
 template <LaneScalar T>
-[[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
-                                    vec2<T> footprint_dy) {
+[[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
+                                    vec2<T> footprint_dx, vec2<T> footprint_dy) {
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
   const vec2<T> here = map_coordinate(tiled, st);
   const auto slope = [&](vec2<T> at) {
@@ -208,8 +230,8 @@ template <LaneScalar T>
 /// The derivative by st' of the heights whose derivatives by the whole map `tiled` holds (by_coordinate
 /// takes it to st).
 template <LaneScalar T>
-[[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
-                                           vec2<T> footprint_dy) {
+[[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
+                                           vec2<T> footprint_dx, vec2<T> footprint_dy) {
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
   return height_derivative(tiled, map_coordinate(tiled, st), [&](const MapTile<T>& tile) {
     return derivative_from_tile(tile, slope_of_heights(tiled, tile.st, lod));

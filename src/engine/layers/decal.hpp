@@ -50,7 +50,7 @@ struct Decals {
 template <Scalar T>
 [[nodiscard]] SpacePoint<T> surface_in_space(const Point<T>& point, bool world) {
   const raster::Fragment<T>& f = point.fragment;
-  if (world) return {f.position, f.dp_dx, f.dp_dy};
+  if (world) return {f.position, f.dp_dx, f.dp_dy, point.placement.origin};
   const mat3<T> inverse = in_lanes<T>(point.placement.inverse_linear);
   const mat4<double>& m = point.placement.world_from_object;
   const vec3<T> origin = in_lanes<T>(vec3<double>{m.x.w, m.y.w, m.z.w} - point.placement.origin);
@@ -113,9 +113,8 @@ template <LaneScalar T>
 }
 
 template <LaneScalar T>
-[[nodiscard]] DecalBump<T> bump_of(const Decals& layer, const Decal& decal, const SpacePoint<T>& at,
-                                   vec3<double> origin) {
-  const DecalFrame<T> frame{in_lanes<T>(decal.frame.origin - origin), in_lanes<T>(decal.frame.axis_x),
+[[nodiscard]] DecalBump<T> bump_of(const Decals& layer, const Decal& decal, const SpacePoint<T>& at) {
+  const DecalFrame<T> frame{in_lanes<T>(decal.frame.origin - at.origin), in_lanes<T>(decal.frame.axis_x),
                             in_lanes<T>(decal.frame.axis_y), in_lanes<T>(decal.frame.axis_z)};
   const T fade = constant<T>(layer.fade);
   const T tangent = constant<T>(decal.tan_half_angle);
@@ -179,13 +178,12 @@ void apply(const Decals& layer, std::span<const std::uint32_t> which, const Poin
   const mask_t<T> lacking = lacks_space(point, layer.world); // no place to look from
   degenerate = degenerate | lacking;
   const T one = T(value_t<T>(1));
-  const vec3<double> origin = layer.world ? point.placement.origin : vec3<double>{0, 0, 0};
   T mask = one;
   bool met = false; // uniform: a decal has a lane inside
   detail::DecalSum<T> waiting = detail::no_decals<T>();
   for (const std::uint32_t i : which) {
     const Decal& decal = layer.decals[i];
-    detail::DecalBump<T> bump = detail::bump_of(layer, decal, at, origin);
+    detail::DecalBump<T> bump = detail::bump_of(layer, decal, at);
     bump.inside = bump.inside & !lacking;
     if (!any(bump.inside)) continue;
     if (!met && layer.mask) mask = sample<1>(*layer.mask, point.fragment)[0];
@@ -234,8 +232,7 @@ struct LanePlaces {
 ///
 /// at  surface_in_space
 template <LaneScalar T>
-[[nodiscard]] std::span<const std::uint32_t> decals_near(const Decals& layer, const Point<T>& point,
-                                                         const SpacePoint<T>& at) {
+[[nodiscard]] std::span<const std::uint32_t> decals_near(const Decals& layer, const SpacePoint<T>& at) {
   LanePlaces places;
   places.count = lane_count<T>;
   const auto put = [](T a, double* to) {
@@ -247,15 +244,14 @@ template <LaneScalar T>
   put(at.position.y, places.y);
   put(at.position.z, places.z);
   put(max(max_abs(at.dp_dx), max_abs(at.dp_dy)), places.pixel);
-  return decals_near(layer.grid, places, layer.world ? point.placement.origin : vec3<double>{0, 0, 0},
-                     static_cast<double>(epsilon_v<T>));
+  return decals_near(layer.grid, places, at.origin, static_cast<double>(epsilon_v<T>));
 }
 
 /// Decals join the sum of the pass: their volume gradients are accumulated first and projected once.
 template <LaneScalar T>
 void apply(const Decals& layer, Point<T>& point, vec3<T>& sum, mask_t<T>& degenerate) {
   const SpacePoint<T> at = surface_in_space(point, layer.world);
-  apply(layer, decals_near(layer, point, at), point, at, sum, degenerate);
+  apply(layer, decals_near(layer, at), point, at, sum, degenerate);
 }
 
 } // namespace surfgrad::engine

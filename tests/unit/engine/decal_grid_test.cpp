@@ -176,7 +176,7 @@ struct DecalLists : ::testing::Test {
 
 template <class T>
 std::span<const std::uint32_t> near(const Decals& decals, const Point<T>& point) {
-  return decals_near(decals, point, surface_in_space(point, decals.world));
+  return decals_near(decals, surface_in_space(point, decals.world));
 }
 
 /// Applied by way of the grid and by trying every decal: the same bits.
