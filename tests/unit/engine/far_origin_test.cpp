@@ -140,6 +140,55 @@ TEST_F(FarFromTheOrigin, ProjectionsAreAsExactAsNearIt) {
   }
 }
 
+TEST_F(FarFromTheOrigin, ProjectionsLieWhereTheyAlwaysDid) {
+  // Doubles tell where a map lies well enough 1e3 away: by 1e-13, which the slopes' slopes multiply.
+  Worst worst("projection about an origin");
+  long k = 0;
+  const auto compare = [&](auto layer) {
+    layer.space = stack::Space::world;
+    const Program world = lab.compile({layer});
+    layer.space = stack::Space::object;
+    const Program object = lab.compile({layer});
+    Random random(seed + 4);
+    for (int i = 0; i < 300; ++i, ++k) {
+      const vec3<double> far = (i % 3 == 0 ? 2 : 1e3) * random.vector3();
+      const vec3<double> p = random.vector3();
+      const mat3<double> r = random.rotation();
+      const Placement moved =
+          engine::place({{1, 0, 0, far.x}, {0, 1, 0, far.y}, {0, 0, 1, far.z}, {0, 0, 0, 1}}, far);
+      const vec3<double> got =
+          compose(world, fragment_of(p, r.z, 1e-2 * r.x, 1e-2 * r.y), BackFaces::same, moved).normal;
+      const vec3<double> expected = compose(object, fragment_of(far + p, r.z, 1e-2 * r.x, 1e-2 * r.y),
+                                            BackFaces::same, test::placed(test::identity))
+                                        .normal;
+      worst.add(got, expected, 1e-9, k);
+    }
+  };
+  for (const auto& wrap : stack::words_of<stack::Wrap>)
+    for (const auto& tiling : stack::words_of<stack::Tiling>) {
+      if (tiling.value == stack::Tiling::hex && wrap.value != stack::Wrap::repeat) continue;
+      const auto lay = [&](stack::Tiled& use) {
+        use.tile = {0.7, -1.3};
+        use.offset = {0.25, 17.1};
+        use.rotate_deg = 25;
+        use.wrap = wrap.value;
+        use.tiling = tiling.value;
+      };
+      stack::PlanarLayer planar = test::planar_layer("n", PlaneAxis::y);
+      lay(planar.map);
+      compare(planar);
+      stack::PlanarLayer heights = test::planar_layer("h", PlaneAxis::x, stack::Content::height);
+      lay(heights.map);
+      compare(heights);
+      for (const auto content : {stack::TriplanarContent::normal, stack::TriplanarContent::object_normal}) {
+        stack::TriplanarLayer triplanar = test::triplanar_layer({"n"}, content);
+        triplanar.convention.planes = TriplanarPlanes::golubev;
+        lay(triplanar.map);
+        compare(triplanar);
+      }
+    }
+}
+
 TEST_F(FarFromTheOrigin, AClampedMapLiesWhereItsOffsetPutsIt) {
   // Its few periods around the object, 1e6 away.
   stack::PlanarLayer layer = test::planar_layer("n", PlaneAxis::z);
