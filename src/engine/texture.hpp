@@ -61,16 +61,25 @@ struct PlanePlace {
   PlanePlace(vec2<T> place, vec2<double> from = {0, 0}) : st(place), origin(from) {} // NOLINT: any coordinate
 };
 
-/// Where the map is read for a point of the plane: st', less the whole periods of the map. Hex tiles have
-/// none: for them it is st' itself.
-[[nodiscard]] vec2<double> map_origin(const TiledMap& tiled, vec2<double> point);
+/// Where a map is read, relative to whatever is far away and makes no difference: whole periods, and of the
+/// grid of hex tiles a vertex.
+template <class T>
+struct MapPlace {
+  vec2<T> st; ///< st', but for what is left out
+  HexOrigin<value_t<T>> hex{};
+};
 
-/// The same as st' for what the map shows, and exact near the place's origin however far away that is.
+/// Where the map is read for a point of the plane.
+[[nodiscard]] MapPlace<double> map_origin(const TiledMap& tiled, vec2<double> point);
+
+/// Where the map is read: exact near the place's origin however far away that is.
 template <Scalar T>
-[[nodiscard]] vec2<T> map_coordinate(const TiledMap& tiled, const PlanePlace<T>& place) {
-  if (place.origin.x == 0 && place.origin.y == 0) return map_coordinate(tiled, place.st);
-  const vec2<double> origin = map_origin(tiled, place.origin);
-  return in_map(tiled, place.st) + vec2<T>{constant<T>(origin.x), constant<T>(origin.y)};
+[[nodiscard]] MapPlace<T> map_place(const TiledMap& tiled, const PlanePlace<T>& place) {
+  if (place.origin.x == 0 && place.origin.y == 0) return {map_coordinate(tiled, place.st)};
+  using V = value_t<T>;
+  const MapPlace<double> origin = map_origin(tiled, place.origin);
+  return {in_map(tiled, place.st) + vec2<T>{constant<T>(origin.st.x), constant<T>(origin.st.y)},
+          {origin.hex.start, {static_cast<V>(origin.hex.shift.x), static_cast<V>(origin.hex.shift.y)}}};
 }
 
 /// Mip level for a footprint on the plane of st.
@@ -129,6 +138,15 @@ template <Scalar T>
   return period * rotate_back(inverse * dh, tile.rotation);
 }
 
+/// Side of the triangles of hex tiles, in units of the map's shorter side.
+inline constexpr double hex_edge = 0.5;
+
+/// The sides of a map in units of the shorter: in them texels are square.
+[[nodiscard]] inline vec2<double> sides_of(const image::Map& map) {
+  const double shorter = std::min(map.width(), map.height());
+  return {map.width() / shorter, map.height() / shorter};
+}
+
 /// The hex tiles over a point of the map's plane.
 template <class T>
 struct HexMapTiles {
@@ -136,16 +154,16 @@ struct HexMapTiles {
   MapTile<T> tile[3];
 };
 
-/// st  st', as map_coordinate gives it
+/// st, origin  as map_place gives them
 template <LaneScalar T>
-[[nodiscard]] HexMapTiles<T> hex_map_tiles(const TiledMap& tiled, vec2<T> st) {
-  const double shorter = std::min(tiled.map->width(), tiled.map->height());
-  const vec2<double> period{tiled.map->width() / shorter, tiled.map->height() / shorter};
+[[nodiscard]] HexMapTiles<T> hex_map_tiles(const TiledMap& tiled, vec2<T> st,
+                                           HexOrigin<value_t<T>> origin = {}) {
+  const vec2<double> period = sides_of(*tiled.map);
   using Value = value_t<T>;
   const vec2<Value> sides{static_cast<Value>(period.x), static_cast<Value>(period.y)};
   HexMapTiles<T> tiles;
   tiles.hex = hex_tiles(vec2<T>{T(sides.x), T(sides.y)} * st, static_cast<Value>(*tiled.hex_turn),
-                        static_cast<Value>(0.5), sides);
+                        static_cast<Value>(hex_edge), sides, origin);
   const vec2<T> inverse{constant<T>(1 / period.x), constant<T>(1 / period.y)};
   for (int k = 0; k < 3; ++k)
     tiles.tile[k] = {inverse * tiles.hex.st[k], false, tiles.hex.rotation[k], period};
@@ -167,12 +185,13 @@ template <LaneScalar T>
 /// of_tile  vec2<T>(const MapTile<T>&): the derivative in a tile by something that is no part of it, such
 ///          as st' (derivative_from_tile) or the pixel (in_tile)
 template <LaneScalar T, class OfTile>
-[[nodiscard]] vec2<T> height_derivative(const TiledMap& tiled, vec2<T> st, const OfTile& of_tile) {
+[[nodiscard]] vec2<T> height_derivative(const TiledMap& tiled, vec2<T> st, const OfTile& of_tile,
+                                        HexOrigin<value_t<T>> origin = {}) {
   if (!tiled.hex_turn) {
     const T one = T(value_t<T>(1));
     return of_tile(MapTile<T>{st, true, {one, T(value_t<T>(0))}, {1, 1}});
   }
-  const HexMapTiles<T> tiles = hex_map_tiles(tiled, st);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, st, origin);
   const vec3<T> w = weights_by_place(tiles.hex);
   return w.x * of_tile(tiles.tile[0]) + w.y * of_tile(tiles.tile[1]) + w.z * of_tile(tiles.tile[2]);
 }
@@ -191,9 +210,9 @@ template <int N, LaneScalar T>
                                       vec2<T> footprint_dx, vec2<T> footprint_dy) {
   // A tile turns where texels are square: the footprint's axes are as long in it.
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
-  const vec2<T> here = map_coordinate(tiled, st);
-  if (!tiled.hex_turn) return sample_at<N>(tiled, here, lod);
-  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
+  const MapPlace<T> here = map_place<T>(tiled, st);
+  if (!tiled.hex_turn) return sample_at<N>(tiled, here.st, lod);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here.st, here.hex);
   const vec3<T> w = weights_by_place(tiles.hex);
   const std::array<T, N> a = sample_at<N>(tiled, tiles.tile[0].st, lod);
   const std::array<T, N> b = sample_at<N>(tiled, tiles.tile[1].st, lod);
@@ -209,13 +228,13 @@ template <LaneScalar T>
 [[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
                                     vec2<T> footprint_dx, vec2<T> footprint_dy) {
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
-  const vec2<T> here = map_coordinate(tiled, st);
+  const MapPlace<T> here = map_place<T>(tiled, st);
   const auto slope = [&](vec2<T> at) {
     const std::array<T, 2> texel = sample_at<2>(tiled, at, lod);
     return vec2<T>{texel[0], texel[1]};
   };
-  if (!tiled.hex_turn) return slope(here);
-  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
+  if (!tiled.hex_turn) return slope(here.st);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here.st, here.hex);
   const vec2<T> slopes[3] = {slope(tiles.tile[0].st), slope(tiles.tile[1].st), slope(tiles.tile[2].st)};
   return hex_derivative(tiles.hex, hex_weights(tiles.hex, slopes), slopes);
 }
@@ -233,9 +252,11 @@ template <LaneScalar T>
 [[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
                                            vec2<T> footprint_dx, vec2<T> footprint_dy) {
   const T lod = level_of_detail(tiled, footprint_dx, footprint_dy);
-  return height_derivative(tiled, map_coordinate(tiled, st), [&](const MapTile<T>& tile) {
+  const MapPlace<T> here = map_place<T>(tiled, st);
+  const auto of_tile = [&](const MapTile<T>& tile) {
     return derivative_from_tile(tile, slope_of_heights(tiled, tile.st, lod));
-  });
+  };
+  return height_derivative(tiled, here.st, of_tile, here.hex);
 }
 
 /// The components of a map of values under the fragment, filtered for its footprint.

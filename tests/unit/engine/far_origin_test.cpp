@@ -114,18 +114,25 @@ TEST_F(FarFromTheOrigin, AProgramsOwnFunctionIsGivenDoubles) {
 }
 
 TEST_F(FarFromTheOrigin, ProjectionsAreAsExactAsNearIt) {
-  for (const auto wrap : {stack::Wrap::repeat, stack::Wrap::mirror}) {
+  struct Lie {
+    const char* name;
+    stack::Wrap wrap;
+    stack::Tiling tiling;
+  };
+  for (const Lie& lie : {Lie{"planar, repeated", stack::Wrap::repeat, stack::Tiling::plain},
+                         Lie{"planar, mirrored", stack::Wrap::mirror, stack::Tiling::plain},
+                         Lie{"planar, hex tiles", stack::Wrap::repeat, stack::Tiling::hex}}) {
     const auto lay = [&](stack::Tiled& use) {
       use.tile = {0.7, -1.3};
       use.offset = {0.25, 17.1};
       use.rotate_deg = 25;
-      use.wrap = wrap;
+      use.wrap = lie.wrap;
+      use.tiling = lie.tiling;
     };
-    const char* name = wrap == stack::Wrap::repeat ? "planar, repeated" : "planar, mirrored";
     stack::PlanarLayer planar = test::planar_layer("n", PlaneAxis::y);
     planar.space = stack::Space::world;
     lay(planar.map);
-    expect_exact(name, planar);
+    expect_exact(lie.name, planar);
     stack::PlanarLayer heights = test::planar_layer("h", PlaneAxis::x, stack::Content::height);
     heights.space = stack::Space::world;
     heights.map.height = 0.1;
