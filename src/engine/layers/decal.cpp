@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace surfgrad::engine {
 namespace {
@@ -136,34 +135,37 @@ Decals compiled(const stack::DecalLayer& layer, const Compiler& compiler) {
   return decals;
 }
 
-std::span<const std::uint32_t> decals_near(const DecalGrid& grid, const LanePlaces& places,
-                                           vec3<double> origin, double epsilon) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<vec3<double>, most_lanes> somewhere;
+namespace {
+
+/// A decal's origin relative to the places' is rounded in their scalar, and before that in double.
+///
+/// far  how far places are from the origin, at most
+double rounding(double far, vec3<double> origin, double epsilon) {
+  return 16 * epsilon * far + 8 * epsilon_v<double> * max_abs(origin);
+}
+
+} // namespace
+
+std::span<const std::uint32_t> decals_at(const DecalGrid& grid, const LanePlaces& places, vec3<double> origin,
+                                         double epsilon) {
+  std::array<Bounds, most_lanes> where;
   std::size_t count = 0;
-  vec3<double> low{infinity, infinity, infinity};
-  vec3<double> high = -low;
-  double pixel = 0;
   for (int i = 0; i < places.count; ++i) {
     const vec3<double> p{places.x[i], places.y[i], places.z[i]};
-    if (!(max_abs(p) < infinity)) continue;
-    somewhere[count++] = p;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    pixel = std::max(pixel, places.pixel[i]);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+    const double side = rounding(max_abs(p), origin, epsilon);
+    const vec3<double> room{side, side, side};
+    where[count++] = {p + origin - room, p + origin + room};
   }
-  if (count == 0) return {};
-  // A decal's origin relative to the places' is rounded in their scalar, and before that in double.
-  const double rounding =
-      16 * epsilon * std::max(max_abs(low), max_abs(high)) + 8 * epsilon_v<double> * max_abs(origin);
-  const vec3<double> room{rounding, rounding, rounding};
-  // About as far as a tile of pixels extends. Lanes farther apart lie on unrelated parts of a surface.
-  const double reach = 64 * pixel;
-  if (max_abs(high - low) <= 2 * reach) return grid.near({low + origin - room, high + origin + room}, reach);
-  std::array<Bounds, most_lanes> where;
-  for (std::size_t i = 0; i < count; ++i)
-    where[i] = {somewhere[i] + origin - room, somewhere[i] + origin + room};
   return grid.search({where.data(), count});
+}
+
+std::span<const std::uint32_t> decals_about(const DecalGrid& grid, vec3<double> place, double half_edge,
+                                            double pixel, vec3<double> origin, double epsilon) {
+  // The distances of lanes have rounded too, by less than places do.
+  const double side = half_edge + rounding(max_abs(place) + half_edge, origin, epsilon);
+  const vec3<double> room{side, side, side};
+  return grid.near({place + origin - room, place + origin + room}, decal_reach * pixel);
 }
 
 } // namespace surfgrad::engine

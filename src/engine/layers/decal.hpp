@@ -10,6 +10,7 @@
 #include <surfgrad/decal.hpp>
 #include <surfgrad/resolve.hpp>
 
+#include <limits>
 #include <span>
 
 namespace surfgrad::engine {
@@ -214,37 +215,65 @@ void apply(const Decals& layer, std::span<const std::uint32_t> which, const Poin
   if (met) sum = detail::projected(point, layer.world, waiting, sum);
 }
 
-/// Where the lanes of a point are, in the space of the decals, and how large their pixels.
+/// Where the lanes of a point are, in the space of the decals.
 struct LanePlaces {
-  double x[most_lanes], y[most_lanes], z[most_lanes], pixel[most_lanes];
+  double x[most_lanes], y[most_lanes], z[most_lanes];
   int count;
 };
 
-/// The decals that may reach any of the lanes; see DecalGrid::near. Lanes that are nowhere (Inf, NaN) count
-/// for none.
+/// The decals that may reach any of the lanes. Lanes that are nowhere (Inf, NaN) count for none.
 ///
 /// origin   that the places are relative to
 /// epsilon  of the scalar that the decals are met in
-[[nodiscard]] std::span<const std::uint32_t> decals_near(const DecalGrid& grid, const LanePlaces& places,
-                                                         vec3<double> origin, double epsilon);
+[[nodiscard]] std::span<const std::uint32_t> decals_at(const DecalGrid& grid, const LanePlaces& places,
+                                                       vec3<double> origin, double epsilon);
+
+/// The decals that may reach a cube about a place, by DecalGrid::near.
+///
+/// half_edge, pixel  of the cube, and about what a pixel measures there
+/// origin, epsilon   as above
+[[nodiscard]] std::span<const std::uint32_t> decals_about(const DecalGrid& grid, vec3<double> place,
+                                                          double half_edge, double pixel, vec3<double> origin,
+                                                          double epsilon);
+
+/// Pixels that a tile of them extends. Lanes farther apart lie on unrelated parts of a surface.
+inline constexpr int decal_reach = 64;
 
 /// The decals that may reach a point, of any of its lanes.
 ///
 /// at  surface_in_space
 template <LaneScalar T>
 [[nodiscard]] std::span<const std::uint32_t> decals_near(const Decals& layer, const SpacePoint<T>& at) {
+  using V = value_t<T>;
+  constexpr int lanes = lane_count<T>;
+  const double epsilon = static_cast<double>(epsilon_v<T>);
+  const vec3<V> first{lane(at.position.x, 0), lane(at.position.y, 0), lane(at.position.z, 0)};
+  const vec3<T> away = at.position - vec3<T>{T(first.x), T(first.y), T(first.z)};
+  // Inf and NaN stay in a sum.
+  const T sum = abs(away.x) + abs(away.y) + abs(away.z);
+  if (all(sum < T(std::numeric_limits<V>::infinity()))) {
+    V distances[lanes];
+    store(max_abs(away), distances);
+    V half_edge = 0;
+    for (int i = 0; i < lanes; ++i) half_edge = half_edge < distances[i] ? distances[i] : half_edge;
+    const V pixel = lane(max(max_abs(at.dp_dx), max_abs(at.dp_dy)), 0);
+    if (half_edge <= V(decal_reach) * pixel)
+      return decals_about(
+          layer.grid,
+          {static_cast<double>(first.x), static_cast<double>(first.y), static_cast<double>(first.z)},
+          static_cast<double>(half_edge), static_cast<double>(pixel), at.origin, epsilon);
+  }
   LanePlaces places;
-  places.count = lane_count<T>;
+  places.count = lanes;
   const auto put = [](T a, double* to) {
-    value_t<T> values[lane_count<T>];
+    V values[lanes];
     store(a, values);
-    for (int i = 0; i < lane_count<T>; ++i) to[i] = static_cast<double>(values[i]);
+    for (int i = 0; i < lanes; ++i) to[i] = static_cast<double>(values[i]);
   };
   put(at.position.x, places.x);
   put(at.position.y, places.y);
   put(at.position.z, places.z);
-  put(max(max_abs(at.dp_dx), max_abs(at.dp_dy)), places.pixel);
-  return decals_near(layer.grid, places, at.origin, static_cast<double>(epsilon_v<T>));
+  return decals_at(layer.grid, places, at.origin, epsilon);
 }
 
 /// Decals join the sum of the pass: their volume gradients are accumulated first and projected once.

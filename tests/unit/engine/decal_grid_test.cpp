@@ -1,6 +1,7 @@
 // The grid finds every decal that reaches a point, and looks at few others.
 
 #include "lab.hpp"
+#include "simd/emulated_lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 namespace surfgrad::engine {
 namespace {
 
+using simd::EmulatedFloat;
 using test::Random;
 
 Bounds around(vec3<double> centre, vec3<double> half) { return {centre - half, centre + half}; }
@@ -275,6 +277,91 @@ TEST_F(DecalLists, ComeOutTheSameWhereTheirBordersPassTheEye) {
                            fragment_at<float>({1e-13f, 0, 0}, random.unit_vector()));
   }
   EXPECT_GT(covered, 50);
+}
+
+/// One fragment a lane.
+raster::Fragment<EmulatedFloat> pack_of(const std::vector<raster::Fragment<float>>& lanes) {
+  raster::Fragment<EmulatedFloat> pack{};
+  const auto put = [](vec3<EmulatedFloat>& to, int i, vec3<float> v) {
+    to.x.lane[i] = v.x;
+    to.y.lane[i] = v.y;
+    to.z.lane[i] = v.z;
+  };
+  for (int i = 0; i < simd::emulated_width; ++i) {
+    const raster::Fragment<float>& f = lanes[static_cast<std::size_t>(i)];
+    put(pack.position, i, f.position);
+    put(pack.normal, i, f.normal);
+    put(pack.dp_dx, i, f.dp_dx);
+    put(pack.dp_dy, i, f.dp_dy);
+    pack.front_facing.lane[i] = true;
+  }
+  return pack;
+}
+
+TEST_F(DecalLists, OfAPackAreThoseOfItsLanes) {
+  // Lanes side by side, far apart and nowhere; walks across a place, as a row of pixels does.
+  long covered = 0;
+  for (const auto& word : stack::words_of<stack::DecalShape>) {
+    const bool round = word.value == stack::DecalShape::sphere || word.value == stack::DecalShape::capsule;
+    stack::DecalLayer layer = test::decal_layer(round ? "cube" : "a", word.value);
+    layer.falloff = 0;
+    layer.instances.assign(200, {});
+    for (stack::DecalInstance& decal : layer.instances) {
+      const double size = random.magnitude(1e-3, 1);
+      decal.position = random.vector3(-1, 1);
+      decal.direction = random.unit_vector();
+      decal.size = {size, size, size};
+      decal.depth = size;
+      decal.radius = 0.5 * size;
+      decal.length = size;
+      decal.blend = stack::words_of<stack::DecalBlend>[random.bits() % 3].value;
+    }
+    const Decals decals = compiled(layer);
+    for (const double origin : {0.0, 1e4}) {
+      const Placement placement =
+          place({{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}, {0, 0, origin});
+      for (int walk = 0; walk < 40; ++walk) {
+        vec3<double> p = random.vector3(-1, 1) - vec3<double>{0, 0, origin};
+        const vec3<double> n = random.unit_vector();
+        const vec3<double> along = normalize_or_zero(cross(n, random.unit_vector()));
+        for (int k = 0; k < 20; ++k) {
+          std::vector<raster::Fragment<float>> lanes;
+          for (int i = 0; i < simd::emulated_width; ++i) {
+            p = p + 1e-3 * along;
+            vec3<double> at = p;
+            if (k % 5 == 4 && i > 4) at = random.vector3(-1, 1) - vec3<double>{0, 0, origin};
+            if (k % 7 == 6 && i == walk % 8) at.x = std::numeric_limits<double>::quiet_NaN();
+            lanes.push_back(fragment_at<float>(
+                {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, n));
+          }
+          const raster::Fragment<EmulatedFloat> f = pack_of(lanes);
+          Point<EmulatedFloat> point{f,
+                                     make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, BackFaces::same),
+                                     true, EmulatedFloat(1.0f), placement};
+          vec3<EmulatedFloat> sum{EmulatedFloat(0.25f), EmulatedFloat(-0.5f), EmulatedFloat(0.125f)};
+          simd::EmulatedMask degenerate{};
+          apply(decals, point, sum, degenerate);
+          for (int i = 0; i < simd::emulated_width; ++i) {
+            const raster::Fragment<float>& one = lanes[static_cast<std::size_t>(i)];
+            Point<float> alone{one, make_frame(one.normal, one.dp_dx, one.dp_dy, true, BackFaces::same), true,
+                               1, placement};
+            vec3<float> expected{0.25f, -0.5f, 0.125f};
+            bool odd = false;
+            std::vector<std::uint32_t> every(decals.decals.size());
+            std::iota(every.begin(), every.end(), 0u);
+            apply(decals, every, alone, surface_in_space(alone, true), expected, odd);
+            ASSERT_EQ(sum.x.lane[i], expected.x) << word.text << " " << walk << " " << k << " " << i;
+            ASSERT_EQ(sum.y.lane[i], expected.y);
+            ASSERT_EQ(sum.z.lane[i], expected.z);
+            ASSERT_EQ(degenerate.lane[i], odd);
+            covered += expected.x != 0.25f;
+          }
+        }
+      }
+    }
+  }
+  std::printf("  lanes under a decal: %ld of 64000\n", covered);
+  EXPECT_GT(covered, 6000);
 }
 
 TEST_F(DecalLists, CostWhatCoversTheFragment) {
