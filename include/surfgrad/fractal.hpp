@@ -35,7 +35,15 @@ template <Scalar T>
   return one - t * t * (constant<T>(3) - constant<T>(2) * t);
 }
 
-/// Sum over octaves of `octave`, a function vec3<T> -> Noise<T>.
+template <LaneScalar T, class Basis>
+[[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> basis_at(const Basis& basis, vec3<T> p, int octave) {
+  if constexpr (requires { basis(p, octave); })
+    return Noise<T>(basis(p, octave));
+  else
+    return Noise<T>(basis(p));
+}
+
+/// Sum over octaves of `octave`, a function of the sampling point and the octave's number.
 template <LaneScalar T, class Octave>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> sum_octaves(vec3<T> p, Fractal<value_t<T>> fractal, T width,
                                                         Octave octave) {
@@ -47,7 +55,7 @@ template <LaneScalar T, class Octave>
   for (int i = 0; i < fractal.octaves && frequency < value_t<T>(noise_extent); ++i) {
     const T visibility = octave_visibility(T(frequency) * width);
     if (any(zero < visibility)) {
-      const Noise<T> n = octave(T(frequency) * p);
+      const Noise<T> n = octave(T(frequency) * p, i);
       const T weight = T(amplitude) * visibility;
       sum.value = sum.value + weight * n.value;
       sum.gradient = sum.gradient + (weight * T(frequency)) * n.gradient;
@@ -67,7 +75,8 @@ template <LaneScalar T, class Octave>
 ///             left out
 /// width       size of a pixel in units of p: octaves fade out as their cells near it, so that the sum
 ///             stays free of aliasing. 0 leaves all octaves whole.
-/// basis       vec3<T> -> Noise<T> with unit cells: perlin by default, any of the noises or one's own
+/// basis       vec3<T> -> Noise<T> with unit cells: perlin by default, any of the noises or one's own. If it
+///             takes an int besides, that is the octave's number i.
 /// returns     value, and the exact gradient of this filtered function for the given width (treated as
 ///             constant)
 /// degenerate  as the basis
@@ -77,7 +86,8 @@ template <LaneScalar T, class Octave>
 template <LaneScalar T, class Basis = PerlinBasis>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> fractal_sum(vec3<T> p, Fractal<value_t<T>> fractal = {},
                                                         T width = T(value_t<T>(0)), Basis basis = {}) {
-  return detail::sum_octaves(p, fractal, width, [&basis](vec3<T> q) { return Noise<T>(basis(q)); });
+  return detail::sum_octaves(
+      p, fractal, width, [&basis](vec3<T> q, int octave) { return detail::basis_at<T>(basis, q, octave); });
 }
 
 /// Turbulence: sum of gain^i * |basis(lacunarity^i * p)|.
@@ -90,8 +100,8 @@ template <LaneScalar T, class Basis = PerlinBasis>
 template <LaneScalar T, class Basis = PerlinBasis>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> turbulence(vec3<T> p, Fractal<value_t<T>> fractal = {},
                                                        T width = T(value_t<T>(0)), Basis basis = {}) {
-  return detail::sum_octaves(p, fractal, width, [&basis](vec3<T> q) {
-    const Noise<T> n = basis(q);
+  return detail::sum_octaves(p, fractal, width, [&basis](vec3<T> q, int octave) {
+    const Noise<T> n = detail::basis_at<T>(basis, q, octave);
     const T one = T(value_t<T>(1));
     return Noise<T>{abs(n.value), select(n.value < T(value_t<T>(0)), -one, one) * n.gradient};
   });
@@ -105,8 +115,8 @@ template <LaneScalar T, class Basis = PerlinBasis>
 template <LaneScalar T, class Basis = PerlinBasis>
 [[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> ridged(vec3<T> p, Fractal<value_t<T>> fractal = {},
                                                    T width = T(value_t<T>(0)), Basis basis = {}) {
-  return detail::sum_octaves(p, fractal, width, [&basis](vec3<T> q) {
-    const Noise<T> n = basis(q);
+  return detail::sum_octaves(p, fractal, width, [&basis](vec3<T> q, int octave) {
+    const Noise<T> n = detail::basis_at<T>(basis, q, octave);
     const T one = T(value_t<T>(1));
     const T two = T(value_t<T>(2));
     const T crest = one - abs(n.value);

@@ -10,6 +10,13 @@
 
 namespace surfgrad {
 
+/// A vertex of the grid that coordinates are relative to: near it they are exact however far away it is.
+template <class V>
+struct HexOrigin {
+  std::uint32_t start = 0;   ///< lattice_start of its index (i, j, 0)
+  vec2<V> shift{V(0), V(0)}; ///< where it lies, whole periods left out
+};
+
 /// The three tiles over a point.
 template <class T>
 struct HexTiles {
@@ -49,6 +56,7 @@ template <Scalar T>
 ///             point of the map twice.
 /// period      of the map along each axis, uniform, positive. An image that is not square turns as a
 ///             picture, not sheared, where its texels are square: give its sides in units of the shorter.
+/// origin      that st is relative to, uniform: the vertex edge * (i + j / 2, j * sqrt(3) / 2)
 /// returns     weights that are continuous everywhere: a tile enters and leaves with weight 0. Each tile is
 ///             the map turned about its own centre and then moved by an offset:
 ///             st[i] = R_i * (st - centre_i) + centre_i + offset_i; turn and offset are functions of the
@@ -60,7 +68,7 @@ template <Scalar T>
 template <LaneScalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE HexTiles<T>
 hex_tiles(vec2<T> st, value_t<T> rotation = value_t<T>(1), value_t<T> edge = value_t<T>(0.5),
-          vec2<value_t<T>> period = {value_t<T>(1), value_t<T>(1)}) {
+          vec2<value_t<T>> period = {value_t<T>(1), value_t<T>(1)}, HexOrigin<value_t<T>> origin = {}) {
   using Value = value_t<T>;
   const T zero = T(Value(0));
   const T one = T(Value(1));
@@ -85,12 +93,14 @@ hex_tiles(vec2<T> st, value_t<T> rotation = value_t<T>(1), value_t<T> edge = val
   const index_t<T> cell_j = to_index(low_j);
   const index_t<T> none = detail::index_constant<T>(0);
   const index_t<T> step = detail::index_constant<T>(1);
+  const MovedLatticeHash<T> hash{origin.start};
+  const vec2<T> place = p + vec2<T>{T(origin.shift.x), T(origin.shift.y)};
   HexTiles<T> tiles;
   const auto set_tile = [&](int tile, T weight, mask_t<T> next_i, mask_t<T> next_j) {
     const index_t<T> vertex_i = cell_i + select(next_i, step, none);
     const index_t<T> vertex_j = cell_j + select(next_j, step, none);
-    const bits_t<T> shift = lattice_hash<T>(vertex_i, vertex_j, none);
-    const bits_t<T> turn = lattice_hash<T>(vertex_i, vertex_j, step);
+    const bits_t<T> shift = hash(vertex_i, vertex_j, none);
+    const bits_t<T> turn = hash(vertex_i, vertex_j, step);
     const T unit = constant<T>(1.0 / 65536);
     const SinCos<T> r = sin_cos_turns(strength * (unit * detail::bit_field<T>(turn, 0, 16) - half));
     // From the vertex to p.
@@ -101,7 +111,7 @@ hex_tiles(vec2<T> st, value_t<T> rotation = value_t<T>(1), value_t<T> edge = val
     // R d + centre = p + (R - 1) d: the centre is not needed, and without a turn p stays what it is.
     const vec2<T> offset{T(period.x) * (unit * detail::bit_field<T>(shift, 0, 16)),
                          T(period.y) * (unit * detail::bit_field<T>(shift, 16, 16))};
-    tiles.st[tile] = p + rotate(d, vec2<T>{r.cos - one, r.sin}) + offset;
+    tiles.st[tile] = place + rotate(d, vec2<T>{r.cos - one, r.sin}) + offset;
     tiles.weight[tile] = weight;
     tiles.rotation[tile] = {r.cos, r.sin};
   };

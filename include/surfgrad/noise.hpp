@@ -114,6 +114,9 @@ template <LaneScalar T>
 /// Gradient noise over the simplicial lattice: 4 corners instead of 8.
 ///
 /// p           sampling point; the lattice has 6 simplices a unit cell
+/// hash        (ix, iy, iz) -> bits, of which the low four are used, of an index of the skewed lattice: where
+/// p
+///             moves by integers x, y, z whose sum is 3 n, indices move by x + n, y + n, z + n
 /// returns     value and exact gradient. |value| <= 1, |gradient| <= 6.97 (found by maximising over
 ///             all positions and gradients). Three times continuously differentiable: each corner's
 ///             falloff (1/2 - r^2)^4 ends at r^2 = 1/2, the distance of a corner from the far face of
@@ -122,8 +125,8 @@ template <LaneScalar T>
 /// error       value 64 eps * (1 + |p|), gradient 512 eps * (1 + |p|): the skewed lattice rounds at the
 ///             magnitude of p
 /// source      Perlin 2001, with the 12 directions of Perlin 2002
-template <LaneScalar T>
-[[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> simplex(vec3<T> p) {
+template <LaneScalar T, class Hash>
+[[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> simplex(vec3<T> p, Hash hash) {
   const T zero = T(value_t<T>(0));
   const T one = T(value_t<T>(1));
   const T sixth = constant<T>(1.0 / 6.0);
@@ -146,7 +149,7 @@ template <LaneScalar T>
     const vec3<T> r{d.x - select(x, one, zero) + back, d.y - select(y, one, zero) + back,
                     d.z - select(z, one, zero) + back};
     const vec3<T> direction = detail::edge_direction<T>(
-        lattice_hash<T>(ix + select(x, step, none), iy + select(y, step, none), iz + select(z, step, none)));
+        hash(ix + select(x, step, none), iy + select(y, step, none), iz + select(z, step, none)));
     const T ramp = dot(direction, r);
     const T t = max(constant<T>(0.5) - dot(r, r), zero);
     const T t2 = t * t;
@@ -164,6 +167,14 @@ template <LaneScalar T>
   add_corner(x_from_y | x_from_z, (!x_from_y) | y_from_z, (!x_from_z) | (!y_from_z), constant<T>(2) * sixth);
   add_corner(always, always, always, constant<T>(0.5));
   return {scale * sum.value, scale * sum.gradient};
+}
+
+/// The same over lattice_hash.
+///
+/// p, returns, degenerate, error, source  as above
+template <LaneScalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE Noise<T> simplex(vec3<T> p) {
+  return simplex(p, LatticeHash<T>{});
 }
 
 /// A noise raised to a power: sharpens dents, g(x) = x^k.

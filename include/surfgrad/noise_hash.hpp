@@ -53,6 +53,24 @@ template <LaneScalar T>
   return {to_index(low.x), to_index(low.y), to_index(low.z), q - low};
 }
 
+// The odd multipliers by which lattice_hash sums a cell's indices.
+inline constexpr std::uint32_t lattice_x = 0x5cdbcce3u;
+inline constexpr std::uint32_t lattice_y = 0x456e33c9u;
+inline constexpr std::uint32_t lattice_z = 0xe1392b77u;
+
+template <LaneScalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr bits_t<T> lattice_sum(index_t<T> x, index_t<T> y, index_t<T> z) {
+  return bits_t<T>(x) * bits_constant<T>(lattice_x) + bits_t<T>(y) * bits_constant<T>(lattice_y) +
+         bits_t<T>(z) * bits_constant<T>(lattice_z);
+}
+
+template <LaneScalar T>
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr bits_t<T> finalised(bits_t<T> h) {
+  h = (h ^ (h >> 16)) * bits_constant<T>(0x7feb352du);
+  h = (h ^ (h >> 15)) * bits_constant<T>(0x846ca68bu);
+  return h ^ (h >> 16);
+}
+
 } // namespace detail
 
 /// 32 well mixed bits for a point of the integer lattice.
@@ -70,12 +88,7 @@ template <LaneScalar T>
 template <LaneScalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr bits_t<T> lattice_hash(index_t<T> x, index_t<T> y,
                                                                     index_t<T> z) {
-  bits_t<T> h = bits_t<T>(x) * detail::bits_constant<T>(0x5cdbcce3u) +
-                bits_t<T>(y) * detail::bits_constant<T>(0x456e33c9u) +
-                bits_t<T>(z) * detail::bits_constant<T>(0xe1392b77u);
-  h = (h ^ (h >> 16)) * detail::bits_constant<T>(0x7feb352du);
-  h = (h ^ (h >> 15)) * detail::bits_constant<T>(0x846ca68bu);
-  return h ^ (h >> 16);
+  return detail::finalised<T>(detail::lattice_sum<T>(x, y, z));
 }
 
 /// lattice_hash as an object: the default for noise functions whose hash can be exchanged.
@@ -86,5 +99,27 @@ struct LatticeHash {
     return lattice_hash<T>(x, y, z);
   }
 };
+
+/// lattice_hash counted from another cell: noise sampled near it is exact however far away that cell is.
+template <LaneScalar T>
+struct MovedLatticeHash {
+  std::uint32_t start = 0; ///< lattice_start of the cell
+
+  [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr bits_t<T> operator()(index_t<T> x, index_t<T> y,
+                                                                    index_t<T> z) const {
+    return detail::finalised<T>(detail::lattice_sum<T>(x, y, z) + detail::bits_constant<T>(start));
+  }
+};
+
+/// What MovedLatticeHash starts from at a cell.
+///
+/// x, y, z     index of the cell, modulo 2^32: lattice_hash sums indices, so they may be added at any time
+/// degenerate  none
+/// error       none
+/// source      own
+[[nodiscard]] SURFGRAD_HOST_DEVICE constexpr std::uint32_t lattice_start(std::uint32_t x, std::uint32_t y,
+                                                                         std::uint32_t z) {
+  return x * detail::lattice_x + y * detail::lattice_y + z * detail::lattice_z;
+}
 
 } // namespace surfgrad

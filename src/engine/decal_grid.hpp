@@ -21,6 +21,12 @@ struct Bounds {
          a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
+/// Whether a holds all of b.
+[[nodiscard]] constexpr bool holds(const Bounds& a, const Bounds& b) {
+  return a.low.x <= b.low.x && b.high.x <= a.high.x && a.low.y <= b.low.y && b.high.y <= a.high.y &&
+         a.low.z <= b.low.z && b.high.z <= a.high.z;
+}
+
 /// Which of many boxes lie somewhere in space, found without looking at all.
 ///
 /// A grid a power of two of the boxes' size: a box lies in the grid whose cells are just large enough that
@@ -36,6 +42,14 @@ class DecalGrid {
   /// where  finite; of small extent: many cells wide, it costs a look at every box of that size
   [[nodiscard]] std::span<const std::uint32_t> search(std::span<const Bounds> where) const;
 
+  /// The boxes that meet `where`, ascending, each once; quick for places that come one after another and
+  /// lie close together. A thread remembers the boxes about a place and looks among those alone until it
+  /// leaves the neighbourhood. Valid until this thread's next call.
+  ///
+  /// where  finite
+  /// reach  size of the neighbourhood; changes what it costs, not what is found
+  [[nodiscard]] std::span<const std::uint32_t> near(const Bounds& where, double reach) const;
+
   /// Boxes that a search within one cell looks at, at most: what it costs beside those it finds.
   [[nodiscard]] std::size_t most_looks() const;
 
@@ -49,6 +63,22 @@ class DecalGrid {
     std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells{};
   };
 
+  /// Part of space and what is there.
+  struct Region {
+    Bounds bounds{};
+    std::vector<std::uint32_t> boxes{}; ///< that meet it, ascending
+  };
+  /// What a thread remembers of a grid: a neighbourhood and, where boxes crowd, a smaller part of it.
+  struct Neighbourhood {
+    std::uint64_t grid = 0;
+    Region whole{}, part{};
+    std::vector<std::uint32_t> found{};
+
+    void move_to(const DecalGrid& there, const Bounds& where, double reach);
+  };
+
+  /// Names the list of boxes: no other list ever has the same, copies of this one do. 0: there are none.
+  std::uint64_t id_ = 0;
   std::vector<Bounds> boxes_;
   std::map<int, Level> levels_; ///< by the exponent of the cells' size
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/lattice_origin.hpp"
 #include "simd/lane.hpp"
 #include "stack/noise_function.hpp"
 #include "stack/volume_function.hpp"
@@ -11,19 +12,52 @@
 
 namespace surfgrad::engine {
 
-struct SimplexBasis {
+namespace detail {
+
+/// A noise at a point of an octave, relative to the noise's origin: `at` samples it with a hash.
+template <LaneScalar T, class At>
+[[nodiscard]] Noise<T> from_origin(const NoiseOrigin& origin, vec3<T> p, int octave, bool skewed,
+                                   const At& at) {
+  const LatticeOrigin from = lattice_origin(origin, octave, skewed);
+  const vec3<T> rest{constant<T>(from.rest.x), constant<T>(from.rest.y), constant<T>(from.rest.z)};
+  return at(rest + p, MovedLatticeHash<T>{from.start});
+}
+
+} // namespace detail
+
+// Noises that octaves are sums of. They take positions relative to an origin.
+
+struct PerlinAt {
+  NoiseOrigin origin{};
+
   template <LaneScalar T>
-  [[nodiscard]] Noise<T> operator()(vec3<T> p) const {
-    return simplex(p);
+  [[nodiscard]] Noise<T> operator()(vec3<T> p, int octave) const {
+    if (!origin.moved()) return perlin(p);
+    return detail::from_origin(origin, p, octave, false,
+                               [](vec3<T> q, auto hash) { return perlin(q, hash); });
   }
 };
 
-struct WorleyBasis {
+struct SimplexAt {
+  NoiseOrigin origin{};
+
+  template <LaneScalar T>
+  [[nodiscard]] Noise<T> operator()(vec3<T> p, int octave) const {
+    if (!origin.moved()) return simplex(p);
+    return detail::from_origin(origin, p, octave, true,
+                               [](vec3<T> q, auto hash) { return simplex(q, hash); });
+  }
+};
+
+struct WorleyAt {
+  NoiseOrigin origin{};
   WorleyKind kind = WorleyKind::f1;
 
   template <LaneScalar T>
-  [[nodiscard]] Noise<T> operator()(vec3<T> p) const {
-    return worley(p, kind);
+  [[nodiscard]] Noise<T> operator()(vec3<T> p, int octave) const {
+    if (!origin.moved()) return worley(p, kind);
+    return detail::from_origin(origin, p, octave, false,
+                               [this](vec3<T> q, auto hash) { return worley(q, kind, hash); });
   }
 };
 
@@ -71,27 +105,28 @@ template <LaneScalar T, class Basis>
 
 /// Value and gradient of a stack's noise function.
 ///
-/// position  in the function's space
+/// position  in the function's space, relative to the origin
 /// width     size of a pixel there: octaves fade out as their cells near it; 0 leaves all whole
+/// origin    uniform: near it the function is as exact as where the space begins, however far from there
 /// returns   the filtered function raised to its power, and the exact gradient of that by the position
 ///           for the given width. Both saturate instead of becoming infinite; never NaN.
 template <LaneScalar T>
-[[nodiscard]] Noise<T> evaluate(const stack::NoiseFunction& function, vec3<T> position, T width) {
+[[nodiscard]] Noise<T> evaluate(const stack::NoiseFunction& function, vec3<T> position, T width,
+                                vec3<double> origin = {0, 0, 0}) {
   const T frequency = constant<T>(function.frequency);
-  const vec3<T> offset{constant<T>(function.offset.x), constant<T>(function.offset.y),
-                       constant<T>(function.offset.z)};
-  const vec3<T> p = frequency * (position - offset);
+  const NoiseOrigin from{function.frequency * (origin - function.offset), function.lacunarity};
+  const vec3<T> p = frequency * position;
   const T cells_per_pixel = frequency * width;
   Noise<T> noise;
   switch (detail::basis_of(function)) {
   case stack::NoiseBasis::perlin:
-    noise = detail::sum(function, p, cells_per_pixel, PerlinBasis{});
+    noise = detail::sum(function, p, cells_per_pixel, PerlinAt{from});
     break;
   case stack::NoiseBasis::simplex:
-    noise = detail::sum(function, p, cells_per_pixel, SimplexBasis{});
+    noise = detail::sum(function, p, cells_per_pixel, SimplexAt{from});
     break;
   case stack::NoiseBasis::worley:
-    noise = detail::sum(function, p, cells_per_pixel, WorleyBasis{function.worley});
+    noise = detail::sum(function, p, cells_per_pixel, WorleyAt{from, function.worley});
     break;
   }
   if (function.power != 1) noise = power(noise, static_cast<value_t<T>>(function.power));
@@ -100,14 +135,18 @@ template <LaneScalar T>
 
 /// Value and gradient of a program's own function. It knows one point at a time and no pixel size: lanes
 /// call it one by one.
+///
+/// position  relative to the origin
 template <LaneScalar T>
-[[nodiscard]] Noise<T> evaluate(const stack::VolumeFunction& function, vec3<T> position) {
+[[nodiscard]] Noise<T> evaluate(const stack::VolumeFunction& function, vec3<T> position,
+                                vec3<double> origin = {0, 0, 0}) {
   using V = value_t<T>;
   const T zero = T(V(0));
   Noise<T> result{zero, {zero, zero, zero}};
   for (int i = 0; i < lane_count<T>; ++i) {
     const Noise<double> n =
-        function({double(lane(position.x, i)), double(lane(position.y, i)), double(lane(position.z, i))});
+        function({origin.x + double(lane(position.x, i)), origin.y + double(lane(position.y, i)),
+                  origin.z + double(lane(position.z, i))});
     result.value = with_lane(result.value, i, static_cast<V>(n.value));
     result.gradient = {with_lane(result.gradient.x, i, static_cast<V>(n.gradient.x)),
                        with_lane(result.gradient.y, i, static_cast<V>(n.gradient.y)),

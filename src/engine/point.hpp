@@ -39,11 +39,13 @@ template <Scalar T>
 /// Position and pixel footprint in the space in which a function of space is sampled.
 template <class T>
 struct SpacePoint {
-  vec3<T> position, dp_dx, dp_dy;
+  vec3<T> position; ///< relative to the origin
+  vec3<T> dp_dx, dp_dy;
+  vec3<double> origin{0, 0, 0}; ///< uniform: may lie far from where the space begins, not from the surface
 };
 
-/// The point in object space, or in world space. The surface's own positions, not displaced ones: detail
-/// stays where it was on the surface.
+/// The point in object space, or in world space relative to the object's origin. The surface's own
+/// positions, not displaced ones: detail stays where it was on the surface.
 template <Scalar T>
 [[nodiscard]] SpacePoint<T> in_space(const Point<T>& point, bool world) {
   const raster::Fragment<T>& f = point.fragment;
@@ -51,10 +53,8 @@ template <Scalar T>
     const mat3<T> inverse = in_lanes<T>(point.placement.inverse_linear);
     return {f.object_position, inverse * f.dp_dx, inverse * f.dp_dy};
   }
-  const mat4<T> m = in_lanes<T>(point.placement.world_from_object);
-  const vec4<T> p =
-      m * vec4<T>{f.object_position.x, f.object_position.y, f.object_position.z, T(value_t<T>(1))};
-  return {{p.x, p.y, p.z}, f.dp_dx, f.dp_dy};
+  const mat4<double>& m = point.placement.world_from_object;
+  return {in_lanes<T>(point.placement.linear) * f.object_position, f.dp_dx, f.dp_dy, {m.x.w, m.y.w, m.z.w}};
 }
 
 /// Whether a position in object space is wanted of an object whose transform has no inverse: footprints

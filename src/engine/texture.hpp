@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 namespace surfgrad::engine {
 
@@ -52,6 +53,36 @@ template <Scalar T>
 template <Scalar T>
 [[nodiscard]] vec2<T> map_coordinate(const TiledMap& tiled, vec2<T> st) {
   return in_map(tiled, st) + vec2<T>{constant<T>(tiled.offset.x), constant<T>(tiled.offset.y)};
+}
+
+/// A coordinate st relative to a point of the plane.
+template <class T>
+struct PlanePlace {
+  vec2<T> st;
+  vec2<double> origin; ///< uniform: may lie far from where the plane's coordinates begin
+
+  PlanePlace(vec2<T> place, vec2<double> from = {0, 0}) : st(place), origin(from) {} // NOLINT: any coordinate
+};
+
+/// Where a map is read, relative to whatever is far away and makes no difference: whole periods, and of the
+/// grid of hex tiles a vertex.
+template <class T>
+struct MapPlace {
+  vec2<T> st; ///< st', but for what is left out
+  HexOrigin<value_t<T>> hex{};
+};
+
+/// Where the map is read for a point of the plane.
+[[nodiscard]] MapPlace<double> map_origin(const TiledMap& tiled, vec2<double> point);
+
+/// Where the map is read: exact near the place's origin however far away that is.
+template <Scalar T>
+[[nodiscard]] MapPlace<T> map_place(const TiledMap& tiled, const PlanePlace<T>& place) {
+  if (place.origin.x == 0 && place.origin.y == 0) return {map_coordinate(tiled, place.st)};
+  using V = value_t<T>;
+  const MapPlace<double> origin = map_origin(tiled, place.origin);
+  return {in_map(tiled, place.st) + vec2<T>{constant<T>(origin.st.x), constant<T>(origin.st.y)},
+          {origin.hex.start, {static_cast<V>(origin.hex.shift.x), static_cast<V>(origin.hex.shift.y)}}};
 }
 
 /// Mip level for a footprint on the plane of st.
@@ -131,6 +162,15 @@ template <Scalar T>
   return period * rotate_back(inverse * dh, tile.rotation);
 }
 
+/// Side of the triangles of hex tiles, in units of the map's shorter side.
+inline constexpr double hex_edge = 0.5;
+
+/// The sides of a map in units of the shorter: in them texels are square.
+[[nodiscard]] inline vec2<double> sides_of(const image::Map& map) {
+  const double shorter = std::min(map.width(), map.height());
+  return {map.width() / shorter, map.height() / shorter};
+}
+
 /// The hex tiles over a point of the map's plane.
 template <class T>
 struct HexMapTiles {
@@ -138,16 +178,16 @@ struct HexMapTiles {
   MapTile<T> tile[3];
 };
 
-/// st  st', as map_coordinate gives it
+/// st, origin  as map_place gives them
 template <LaneScalar T>
-[[nodiscard]] HexMapTiles<T> hex_map_tiles(const TiledMap& tiled, vec2<T> st) {
-  const double shorter = std::min(tiled.map->width(), tiled.map->height());
-  const vec2<double> period{tiled.map->width() / shorter, tiled.map->height() / shorter};
+[[nodiscard]] HexMapTiles<T> hex_map_tiles(const TiledMap& tiled, vec2<T> st,
+                                           HexOrigin<value_t<T>> origin = {}) {
+  const vec2<double> period = sides_of(*tiled.map);
   using Value = value_t<T>;
   const vec2<Value> sides{static_cast<Value>(period.x), static_cast<Value>(period.y)};
   HexMapTiles<T> tiles;
   tiles.hex = hex_tiles(vec2<T>{T(sides.x), T(sides.y)} * st, static_cast<Value>(*tiled.hex_turn),
-                        static_cast<Value>(0.5), sides);
+                        static_cast<Value>(hex_edge), sides, origin);
   const vec2<T> inverse{constant<T>(1 / period.x), constant<T>(1 / period.y)};
   for (int k = 0; k < 3; ++k)
     tiles.tile[k] = {inverse * tiles.hex.st[k], false, tiles.hex.rotation[k], period};
@@ -169,12 +209,13 @@ template <LaneScalar T>
 /// of_tile  vec2<T>(const MapTile<T>&): the derivative in a tile by something that is no part of it, such
 ///          as st' (derivative_from_tile) or the pixel (in_tile)
 template <LaneScalar T, class OfTile>
-[[nodiscard]] vec2<T> height_derivative(const TiledMap& tiled, vec2<T> st, const OfTile& of_tile) {
+[[nodiscard]] vec2<T> height_derivative(const TiledMap& tiled, vec2<T> st, const OfTile& of_tile,
+                                        HexOrigin<value_t<T>> origin = {}) {
   if (!tiled.hex_turn) {
     const T one = T(value_t<T>(1));
     return of_tile(MapTile<T>{st, true, {one, T(value_t<T>(0))}, {1, 1}});
   }
-  const HexMapTiles<T> tiles = hex_map_tiles(tiled, st);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, st, origin);
   const vec3<T> w = weights_by_place(tiles.hex);
   return w.x * of_tile(tiles.tile[0]) + w.y * of_tile(tiles.tile[1]) + w.z * of_tile(tiles.tile[2]);
 }
@@ -198,12 +239,12 @@ template <int N, LaneScalar T>
 /// The components of a map of values at a coordinate, filtered for a footprint: weights, heights. What
 /// has a direction in the plane is turned with its tile: sample_slopes and sample_height_slopes.
 template <int N, LaneScalar T>
-[[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
-                                      vec2<T> footprint_dy) {
+[[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
+                                      vec2<T> footprint_dx, vec2<T> footprint_dy) {
   const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
-  const vec2<T> here = map_coordinate(tiled, st);
-  if (!tiled.hex_turn) return sample_at<N>(tiled, here, footprint);
-  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
+  const MapPlace<T> here = map_place<T>(tiled, st);
+  if (!tiled.hex_turn) return sample_at<N>(tiled, here.st, footprint);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here.st, here.hex);
   const vec3<T> w = weights_by_place(tiles.hex);
   const auto of_tile = [&](const MapTile<T>& tile) {
     return sample_at<N>(tiled, tile.st, in_tile(tile, footprint));
@@ -231,12 +272,12 @@ template <LaneScalar T>
 /// The slopes of a map of slopes along st' (along_coordinate takes them to st). Of hex tiles the steeper
 /// prevail.
 template <LaneScalar T>
-[[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
-                                    vec2<T> footprint_dy) {
+[[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
+                                    vec2<T> footprint_dx, vec2<T> footprint_dy) {
   const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
-  const vec2<T> here = map_coordinate(tiled, st);
-  if (!tiled.hex_turn) return slope_at(tiled, here, footprint);
-  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here);
+  const MapPlace<T> here = map_place<T>(tiled, st);
+  if (!tiled.hex_turn) return slope_at(tiled, here.st, footprint);
+  const HexMapTiles<T> tiles = hex_map_tiles(tiled, here.st, here.hex);
   const auto of_tile = [&](const MapTile<T>& tile) {
     return slope_at(tiled, tile.st, in_tile(tile, footprint));
   };
@@ -268,12 +309,14 @@ template <LaneScalar T>
 /// The derivative by st' of the heights whose derivatives by the whole map `tiled` holds (by_coordinate
 /// takes it to st).
 template <LaneScalar T>
-[[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, vec2<T> st, vec2<T> footprint_dx,
-                                           vec2<T> footprint_dy) {
+[[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
+                                           vec2<T> footprint_dx, vec2<T> footprint_dy) {
   const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
-  return height_derivative(tiled, map_coordinate(tiled, st), [&](const MapTile<T>& tile) {
+  const MapPlace<T> here = map_place<T>(tiled, st);
+  const auto of_tile = [&](const MapTile<T>& tile) {
     return derivative_from_tile(tile, slope_of_heights(tiled, tile.st, in_tile(tile, footprint)));
-  });
+  };
+  return height_derivative(tiled, here.st, of_tile, here.hex);
 }
 
 /// The components of a map of values under the fragment, filtered for its footprint.

@@ -135,4 +135,37 @@ Decals compiled(const stack::DecalLayer& layer, const Compiler& compiler) {
   return decals;
 }
 
+namespace {
+
+/// A decal's origin relative to the places' is rounded in their scalar, and before that in double.
+///
+/// far  how far places are from the origin, at most
+double rounding(double far, vec3<double> origin, double epsilon) {
+  return 16 * epsilon * far + 8 * epsilon_v<double> * max_abs(origin);
+}
+
+} // namespace
+
+std::span<const std::uint32_t> decals_at(const DecalGrid& grid, const LanePlaces& places, vec3<double> origin,
+                                         double epsilon) {
+  std::array<Bounds, most_lanes> where;
+  std::size_t count = 0;
+  for (int i = 0; i < places.count; ++i) {
+    const vec3<double> p{places.x[i], places.y[i], places.z[i]};
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+    const double side = rounding(max_abs(p), origin, epsilon);
+    const vec3<double> room{side, side, side};
+    where[count++] = {p + origin - room, p + origin + room};
+  }
+  return grid.search({where.data(), count});
+}
+
+std::span<const std::uint32_t> decals_about(const DecalGrid& grid, vec3<double> place, double half_edge,
+                                            double pixel, vec3<double> origin, double epsilon) {
+  // The distances of lanes have rounded too, by less than places do.
+  const double side = half_edge + rounding(max_abs(place) + half_edge, origin, epsilon);
+  const vec3<double> room{side, side, side};
+  return grid.near({place + origin - room, place + origin + room}, decal_reach * pixel);
+}
+
 } // namespace surfgrad::engine

@@ -51,7 +51,7 @@ struct Decals {
 template <Scalar T>
 [[nodiscard]] SpacePoint<T> surface_in_space(const Point<T>& point, bool world) {
   const raster::Fragment<T>& f = point.fragment;
-  if (world) return {f.position, f.dp_dx, f.dp_dy};
+  if (world) return {f.position, f.dp_dx, f.dp_dy, point.placement.origin};
   const mat3<T> inverse = in_lanes<T>(point.placement.inverse_linear);
   const mat4<double>& m = point.placement.world_from_object;
   const vec3<T> origin = in_lanes<T>(vec3<double>{m.x.w, m.y.w, m.z.w} - point.placement.origin);
@@ -60,7 +60,8 @@ template <Scalar T>
 
 namespace detail {
 
-/// What a decal adds at a point, in the space of the decals. Zero outside.
+/// What a decal adds at a point, in the space of the decals. Zero outside; nothing but `inside` is set where
+/// no lane is inside.
 template <class T>
 struct DecalBump {
   vec3<T> gradient; ///< volume gradient of its bumps
@@ -71,8 +72,15 @@ struct DecalBump {
 };
 
 template <LaneScalar T>
+[[nodiscard]] DecalBump<T> nowhere(mask_t<T> inside) {
+  const T zero = T(value_t<T>(0));
+  return {{zero, zero, zero}, {zero, zero, zero}, zero, inside, inside};
+}
+
+template <LaneScalar T>
 [[nodiscard]] DecalBump<T> image_bump(const Decals& layer, const Decal& decal,
                                       const DecalProjection<T>& projection, const SpacePoint<T>& at) {
+  if (!any(projection.inside)) return nowhere<T>(projection.inside);
   const auto footprint = projected_derivatives(projection.grad_s, projection.grad_t, at.dp_dx, at.dp_dy);
   const vec2<T> d =
       saturated(derivative(layer.bumps, projection.texture_coordinate, footprint.dst_dx, footprint.dst_dy));
@@ -87,6 +95,7 @@ template <LaneScalar T>
 [[nodiscard]] DecalBump<T> cube_bump(const Decals& layer, const DecalFrame<T>& frame,
                                      const DecalDirection<T>& direction, vec3<T> from_centre,
                                      const SpacePoint<T>& at) {
+  if (!any(direction.inside)) return nowhere<T>(direction.inside);
   const auto in_decal = [&](vec3<T> v) {
     const vec3<T> across = v - dot(v, direction.unchanging) * direction.unchanging;
     return vec3<T>{dot(across, frame.axis_x), dot(across, frame.axis_y), dot(across, frame.axis_z)};
@@ -105,9 +114,8 @@ template <LaneScalar T>
 }
 
 template <LaneScalar T>
-[[nodiscard]] DecalBump<T> bump_of(const Decals& layer, const Decal& decal, const SpacePoint<T>& at,
-                                   vec3<double> origin) {
-  const DecalFrame<T> frame{in_lanes<T>(decal.frame.origin - origin), in_lanes<T>(decal.frame.axis_x),
+[[nodiscard]] DecalBump<T> bump_of(const Decals& layer, const Decal& decal, const SpacePoint<T>& at) {
+  const DecalFrame<T> frame{in_lanes<T>(decal.frame.origin - at.origin), in_lanes<T>(decal.frame.axis_x),
                             in_lanes<T>(decal.frame.axis_y), in_lanes<T>(decal.frame.axis_z)};
   const T fade = constant<T>(layer.fade);
   const T tangent = constant<T>(decal.tan_half_angle);
@@ -161,24 +169,26 @@ template <LaneScalar T>
 /// Applies some of a layer's decals.
 ///
 /// which       their numbers, ascending: at least all that reach the point
+/// at          surface_in_space
 /// degenerate  (out) set where object space is wanted of an object whose transform has no inverse: no decal
 ///             is there. Set within a sphere or capsule where there is no direction from its centre, or
 ///             none in its map; the decal is flat there
 template <LaneScalar T>
-void apply(const Decals& layer, std::span<const std::uint32_t> which, const Point<T>& point, vec3<T>& sum,
-           mask_t<T>& degenerate) {
+void apply(const Decals& layer, std::span<const std::uint32_t> which, const Point<T>& point,
+           const SpacePoint<T>& at, vec3<T>& sum, mask_t<T>& degenerate) {
   const mask_t<T> lacking = lacks_space(point, layer.world); // no place to look from
   degenerate = degenerate | lacking;
-  if (which.empty()) return;
   const T one = T(value_t<T>(1));
-  const SpacePoint<T> at = surface_in_space(point, layer.world);
-  const vec3<double> origin = layer.world ? point.placement.origin : vec3<double>{0, 0, 0};
-  const T mask = layer.mask ? sample<1>(*layer.mask, point.fragment)[0] : one;
+  T mask = one;
+  bool met = false; // uniform: a decal has a lane inside
   detail::DecalSum<T> waiting = detail::no_decals<T>();
   for (const std::uint32_t i : which) {
     const Decal& decal = layer.decals[i];
-    detail::DecalBump<T> bump = detail::bump_of(layer, decal, at, origin);
+    detail::DecalBump<T> bump = detail::bump_of(layer, decal, at);
     bump.inside = bump.inside & !lacking;
+    if (!any(bump.inside)) continue;
+    if (!met && layer.mask) mask = sample<1>(*layer.mask, point.fragment)[0];
+    met = true;
     degenerate = degenerate | bump.degenerate;
     const T w = bump.falloff * mask * constant<T>(decal.opacity);
     if (decal.blend == stack::DecalBlend::replace) {
@@ -202,35 +212,75 @@ void apply(const Decals& layer, std::span<const std::uint32_t> which, const Poin
     waiting = {select(bump.inside, keep * waiting.factor, waiting.factor),
                select<T>(bump.inside, gradient, waiting.gradient), mask_t<T>(waiting.any | bump.inside)};
   }
-  sum = detail::projected(point, layer.world, waiting, sum);
+  if (met) sum = detail::projected(point, layer.world, waiting, sum);
 }
 
-/// The decals that may reach the point, of any of its lanes.
+/// Where the lanes of a point are, in the space of the decals.
+struct LanePlaces {
+  double x[most_lanes], y[most_lanes], z[most_lanes];
+  int count;
+};
+
+/// The decals that may reach any of the lanes. Lanes that are nowhere (Inf, NaN) count for none.
+///
+/// origin   that the places are relative to
+/// epsilon  of the scalar that the decals are met in
+[[nodiscard]] std::span<const std::uint32_t> decals_at(const DecalGrid& grid, const LanePlaces& places,
+                                                       vec3<double> origin, double epsilon);
+
+/// The decals that may reach a cube about a place, by DecalGrid::near.
+///
+/// half_edge, pixel  of the cube, and about what a pixel measures there
+/// origin, epsilon   as above
+[[nodiscard]] std::span<const std::uint32_t> decals_about(const DecalGrid& grid, vec3<double> place,
+                                                          double half_edge, double pixel, vec3<double> origin,
+                                                          double epsilon);
+
+/// Pixels that a tile of them extends. Lanes farther apart lie on unrelated parts of a surface.
+inline constexpr int decal_reach = 64;
+
+/// The decals that may reach a point, of any of its lanes.
+///
+/// at  surface_in_space
 template <LaneScalar T>
-[[nodiscard]] std::span<const std::uint32_t> decals_near(const Decals& layer, const Point<T>& point) {
-  const SpacePoint<T> at = surface_in_space(point, layer.world);
-  const vec3<double> origin = layer.world ? point.placement.origin : vec3<double>{0, 0, 0};
-  std::array<Bounds, lane_count<T>> where{};
-  std::size_t count = 0;
-  for (int i = 0; i < lane_count<T>; ++i) {
-    const vec3<double> p{static_cast<double>(lane(at.position.x, i)),
-                         static_cast<double>(lane(at.position.y, i)),
-                         static_cast<double>(lane(at.position.z, i))};
-    const double far = max_abs(p);
-    if (!(far < std::numeric_limits<double>::infinity())) continue; // nowhere
-    // A decal's origin relative to the placement's is rounded in T, and before that in double.
-    const double rounding =
-        16 * static_cast<double>(epsilon_v<T>) * far + 8 * epsilon_v<double> * max_abs(origin);
-    const vec3<double> room{rounding, rounding, rounding};
-    where[count++] = {p + origin - room, p + origin + room};
+[[nodiscard]] std::span<const std::uint32_t> decals_near(const Decals& layer, const SpacePoint<T>& at) {
+  using V = value_t<T>;
+  constexpr int lanes = lane_count<T>;
+  const double epsilon = static_cast<double>(epsilon_v<T>);
+  const vec3<V> first{lane(at.position.x, 0), lane(at.position.y, 0), lane(at.position.z, 0)};
+  const vec3<T> away = at.position - vec3<T>{T(first.x), T(first.y), T(first.z)};
+  // Inf and NaN stay in a sum.
+  const T sum = abs(away.x) + abs(away.y) + abs(away.z);
+  if (all(sum < T(std::numeric_limits<V>::infinity()))) {
+    V distances[lanes];
+    store(max_abs(away), distances);
+    V half_edge = 0;
+    for (int i = 0; i < lanes; ++i) half_edge = half_edge < distances[i] ? distances[i] : half_edge;
+    const V pixel = lane(max(max_abs(at.dp_dx), max_abs(at.dp_dy)), 0);
+    if (half_edge <= V(decal_reach) * pixel)
+      return decals_about(
+          layer.grid,
+          {static_cast<double>(first.x), static_cast<double>(first.y), static_cast<double>(first.z)},
+          static_cast<double>(half_edge), static_cast<double>(pixel), at.origin, epsilon);
   }
-  return layer.grid.search({where.data(), count});
+  LanePlaces places;
+  places.count = lanes;
+  const auto put = [](T a, double* to) {
+    V values[lanes];
+    store(a, values);
+    for (int i = 0; i < lanes; ++i) to[i] = static_cast<double>(values[i]);
+  };
+  put(at.position.x, places.x);
+  put(at.position.y, places.y);
+  put(at.position.z, places.z);
+  return decals_at(layer.grid, places, at.origin, epsilon);
 }
 
 /// Decals join the sum of the pass: their volume gradients are accumulated first and projected once.
 template <LaneScalar T>
 void apply(const Decals& layer, Point<T>& point, vec3<T>& sum, mask_t<T>& degenerate) {
-  apply(layer, decals_near(layer, point), point, sum, degenerate);
+  const SpacePoint<T> at = surface_in_space(point, layer.world);
+  apply(layer, decals_near(layer, at), point, at, sum, degenerate);
 }
 
 } // namespace surfgrad::engine

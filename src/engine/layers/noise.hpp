@@ -46,8 +46,8 @@ template <LaneScalar T>
   const SpacePoint<T> at = in_space(point, layer.world);
   // The longer side of the pixel: along the shorter one the function loses detail before it must.
   const T width = max(length(at.dp_dx), length(at.dp_dy));
-  const Noise<T> noise =
-      layer.custom ? evaluate(*layer.custom, at.position) : evaluate(layer.noise, at.position, width);
+  const Noise<T> noise = layer.custom ? evaluate(*layer.custom, at.position, at.origin)
+                                      : evaluate(layer.noise, at.position, width, at.origin);
   const vec3<T> g = noise.gradient;
   const mask_t<T> absent = !((g.x == g.x) & (g.y == g.y) & (g.z == g.z));
   const mask_t<T> lacking = lacks_space(point, layer.world);

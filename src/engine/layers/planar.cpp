@@ -9,4 +9,8 @@ Planar compiled(const stack::PlanarLayer& layer, const Compiler& compiler) {
           layer.space == stack::Space::world};
 }
 
+TriplanarCoordinates<double> origin_on_planes(vec3<double> origin, TriplanarConvention convention) {
+  return triplanar_coordinates(origin, convention);
+}
+
 } // namespace surfgrad::engine

@@ -40,7 +40,7 @@ template <LaneScalar T>
   const T zero = T(value_t<T>(0));
   const vec2<T> none{zero, zero};
   const auto d = of_weighted_planes(layer, weights, none, [&](PlaneAxis axis, const BumpMap& bumps) {
-    return derivative(bumps, of_plane(planes.st, axis), of_plane(planes.dst_dx, axis),
+    return derivative(bumps, place_on_plane(planes, axis), of_plane(planes.dst_dx, axis),
                       of_plane(planes.dst_dy, axis));
   });
   return from_gradient_in_space(point, layer.world,
@@ -57,7 +57,7 @@ template <LaneScalar T>
   const vec3<T> none{zero, zero, zero};
   const mask_t<T> lacking = lacks_space(point, layer.world);
   const auto v = of_weighted_planes(layer, weights, none, [&](PlaneAxis axis, const BumpMap& bumps) {
-    const std::array<T, 3> texel = sample<3>(bumps.tiled, of_plane(planes.st, axis),
+    const std::array<T, 3> texel = sample<3>(bumps.tiled, place_on_plane(planes, axis),
                                              of_plane(planes.dst_dx, axis), of_plane(planes.dst_dy, axis));
     return vec3<T>{texel[0], texel[1], texel[2]};
   });

@@ -78,5 +78,21 @@ TEST(LatticeHash, IsTheSameForEveryScalar) {
   }
 }
 
+TEST(MovedLatticeHash, CountsFromItsCell) {
+  std::mt19937 engine(static_cast<unsigned>(seed));
+  for (int i = 0; i < 1000; ++i) {
+    const std::uint32_t cell[3] = {static_cast<std::uint32_t>(engine()), static_cast<std::uint32_t>(engine()),
+                                   static_cast<std::uint32_t>(engine())};
+    const MovedLatticeHash<float> moved{lattice_start(cell[0], cell[1], cell[2])};
+    const auto near = [&] { return static_cast<std::int32_t>(engine() % 2001) - 1000; };
+    const std::int32_t x = near(), y = near(), z = near();
+    const auto sum = [](std::uint32_t a, std::int32_t b) {
+      return static_cast<std::int32_t>(a + static_cast<std::uint32_t>(b));
+    };
+    EXPECT_EQ(moved(x, y, z), lattice_hash<float>(sum(cell[0], x), sum(cell[1], y), sum(cell[2], z)));
+    EXPECT_EQ(MovedLatticeHash<double>{}(x, y, z), lattice_hash<double>(x, y, z));
+  }
+}
+
 } // namespace
 } // namespace surfgrad

@@ -1,15 +1,18 @@
 // The grid finds every decal that reaches a point, and looks at few others.
 
 #include "lab.hpp"
+#include "simd/emulated_lanes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 namespace surfgrad::engine {
 namespace {
 
+using simd::EmulatedFloat;
 using test::Random;
 
 Bounds around(vec3<double> centre, vec3<double> half) { return {centre - half, centre + half}; }
@@ -62,6 +65,48 @@ TEST(DecalGrids, FindWhatALookAtEveryBoxFinds) {
   }
   std::printf("  boxes found in 12000 searches: %zu\n", hits);
   EXPECT_GT(hits, 6000u);
+}
+
+TEST(DecalGrids, FindTheSameFromPlaceToPlace) {
+  constexpr std::uint64_t seed = 304;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  // More lists in use at a time than a thread remembers, copies and lists that took another's place.
+  std::vector<std::vector<Bounds>> boxes(40);
+  std::vector<DecalGrid> grids(40);
+  std::size_t hits = 0;
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+      boxes[g].clear();
+      for (int i = 0; i < 60; ++i) {
+        const double half = random.magnitude(1e-3, 2);
+        boxes[g].push_back(around(random.vector3(-2, 2), half * random.vector3(0.1, 1)));
+      }
+      grids[g] = DecalGrid(boxes[g]);
+    }
+    for (const double reach : {0.0, 1e-3, 0.1, 10.0, 1e300, std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()})
+      for (int walk = 0; walk < 20; ++walk) {
+        const std::size_t g = random.bits() % grids.size();
+        const std::size_t other = random.bits() % grids.size();
+        const DecalGrid copy = grids[g];
+        vec3<double> p = random.vector3(-2, 2);
+        for (int step = 0; step < 50; ++step) {
+          p = p + random.magnitude(1e-4, 0.1) * random.vector3();
+          const double half = random.magnitude(1e-6, 0.1);
+          const Bounds where = around(p, half * random.vector3(0, 1));
+          using Use = std::pair<const DecalGrid*, std::size_t>;
+          for (const auto& [grid, list] : {Use(&grids[g], g), Use(&copy, g), Use(&grids[other], other)}) {
+            const auto found = grid->near(where, reach);
+            ASSERT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()),
+                      all_that_meet(boxes[list], {where}));
+            hits += found.size();
+          }
+        }
+      }
+  }
+  std::printf("  boxes found from place to place: %zu\n", hits);
+  EXPECT_GT(hits, 10000u);
 }
 
 TEST(DecalGrids, HoldTheirBordersAtCellBorders) {
@@ -131,6 +176,11 @@ struct DecalLists : ::testing::Test {
   }
 };
 
+template <class T>
+std::span<const std::uint32_t> near(const Decals& decals, const Point<T>& point) {
+  return decals_near(decals, surface_in_space(point, decals.world));
+}
+
 /// Applied by way of the grid and by trying every decal: the same bits.
 template <class T>
 bool expect_same(const Decals& decals, const Placement& placement, const raster::Fragment<T>& f) {
@@ -142,7 +192,7 @@ bool expect_same(const Decals& decals, const Placement& placement, const raster:
   apply(decals, point, found, degenerate);
   std::vector<std::uint32_t> every(decals.decals.size());
   std::iota(every.begin(), every.end(), 0u);
-  apply(decals, std::span<const std::uint32_t>(every), point, tried, degenerate);
+  apply(decals, every, point, surface_in_space(point, decals.world), tried, degenerate);
   EXPECT_EQ(std::memcmp(&found, &tried, sizeof found), 0)
       << found.x << " " << found.y << " " << found.z << " against " << tried.x << " " << tried.y << " "
       << tried.z;
@@ -229,6 +279,91 @@ TEST_F(DecalLists, ComeOutTheSameWhereTheirBordersPassTheEye) {
   EXPECT_GT(covered, 50);
 }
 
+/// One fragment a lane.
+raster::Fragment<EmulatedFloat> pack_of(const std::vector<raster::Fragment<float>>& lanes) {
+  raster::Fragment<EmulatedFloat> pack{};
+  const auto put = [](vec3<EmulatedFloat>& to, int i, vec3<float> v) {
+    to.x.lane[i] = v.x;
+    to.y.lane[i] = v.y;
+    to.z.lane[i] = v.z;
+  };
+  for (int i = 0; i < simd::emulated_width; ++i) {
+    const raster::Fragment<float>& f = lanes[static_cast<std::size_t>(i)];
+    put(pack.position, i, f.position);
+    put(pack.normal, i, f.normal);
+    put(pack.dp_dx, i, f.dp_dx);
+    put(pack.dp_dy, i, f.dp_dy);
+    pack.front_facing.lane[i] = true;
+  }
+  return pack;
+}
+
+TEST_F(DecalLists, OfAPackAreThoseOfItsLanes) {
+  // Lanes side by side, far apart and nowhere; walks across a place, as a row of pixels does.
+  long covered = 0;
+  for (const auto& word : stack::words_of<stack::DecalShape>) {
+    const bool round = word.value == stack::DecalShape::sphere || word.value == stack::DecalShape::capsule;
+    stack::DecalLayer layer = test::decal_layer(round ? "cube" : "a", word.value);
+    layer.falloff = 0;
+    layer.instances.assign(200, {});
+    for (stack::DecalInstance& decal : layer.instances) {
+      const double size = random.magnitude(1e-3, 1);
+      decal.position = random.vector3(-1, 1);
+      decal.direction = random.unit_vector();
+      decal.size = {size, size, size};
+      decal.depth = size;
+      decal.radius = 0.5 * size;
+      decal.length = size;
+      decal.blend = stack::words_of<stack::DecalBlend>[random.bits() % 3].value;
+    }
+    const Decals decals = compiled(layer);
+    for (const double origin : {0.0, 1e4}) {
+      const Placement placement =
+          place({{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}, {0, 0, origin});
+      for (int walk = 0; walk < 40; ++walk) {
+        vec3<double> p = random.vector3(-1, 1) - vec3<double>{0, 0, origin};
+        const vec3<double> n = random.unit_vector();
+        const vec3<double> along = normalize_or_zero(cross(n, random.unit_vector()));
+        for (int k = 0; k < 20; ++k) {
+          std::vector<raster::Fragment<float>> lanes;
+          for (int i = 0; i < simd::emulated_width; ++i) {
+            p = p + 1e-3 * along;
+            vec3<double> at = p;
+            if (k % 5 == 4 && i > 4) at = random.vector3(-1, 1) - vec3<double>{0, 0, origin};
+            if (k % 7 == 6 && i == walk % 8) at.x = std::numeric_limits<double>::quiet_NaN();
+            lanes.push_back(fragment_at<float>(
+                {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, n));
+          }
+          const raster::Fragment<EmulatedFloat> f = pack_of(lanes);
+          Point<EmulatedFloat> point{f,
+                                     make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, BackFaces::same),
+                                     true, EmulatedFloat(1.0f), placement};
+          vec3<EmulatedFloat> sum{EmulatedFloat(0.25f), EmulatedFloat(-0.5f), EmulatedFloat(0.125f)};
+          simd::EmulatedMask degenerate{};
+          apply(decals, point, sum, degenerate);
+          for (int i = 0; i < simd::emulated_width; ++i) {
+            const raster::Fragment<float>& one = lanes[static_cast<std::size_t>(i)];
+            Point<float> alone{one, make_frame(one.normal, one.dp_dx, one.dp_dy, true, BackFaces::same), true,
+                               1, placement};
+            vec3<float> expected{0.25f, -0.5f, 0.125f};
+            bool odd = false;
+            std::vector<std::uint32_t> every(decals.decals.size());
+            std::iota(every.begin(), every.end(), 0u);
+            apply(decals, every, alone, surface_in_space(alone, true), expected, odd);
+            ASSERT_EQ(sum.x.lane[i], expected.x) << word.text << " " << walk << " " << k << " " << i;
+            ASSERT_EQ(sum.y.lane[i], expected.y);
+            ASSERT_EQ(sum.z.lane[i], expected.z);
+            ASSERT_EQ(degenerate.lane[i], odd);
+            covered += expected.x != 0.25f;
+          }
+        }
+      }
+    }
+  }
+  std::printf("  lanes under a decal: %ld of 64000\n", covered);
+  EXPECT_GT(covered, 6000);
+}
+
 TEST_F(DecalLists, CostWhatCoversTheFragment) {
   stack::DecalLayer layer = test::decal_layer("a");
   layer.instances.clear();
@@ -245,9 +380,9 @@ TEST_F(DecalLists, CostWhatCoversTheFragment) {
   const Placement placement = test::placed(test::identity);
   const auto f = fragment_at<double>({0.1, 5.1, 0.1}, {0, 1, 0});
   const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), true, 1, placement};
-  ASSERT_EQ(decals_near(one, point).size(), 1u);
-  ASSERT_EQ(decals_near(thousand, point).size(), 1u);
-  EXPECT_EQ(decals_near(thousand, point)[0], 505u);
+  ASSERT_EQ(near(one, point).size(), 1u);
+  ASSERT_EQ(near(thousand, point).size(), 1u);
+  EXPECT_EQ(near(thousand, point)[0], 505u);
   EXPECT_LE(thousand.grid.most_looks(), 9u) << "one layer of cells, three a side";
 }
 
@@ -258,7 +393,7 @@ TEST_F(DecalLists, AreNotReachedByPositionsThatAreNoNumbers) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const auto f = fragment_at<double>({0, no, 0}, {0, 1, 0});
     const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), true, 1, placement};
-    EXPECT_TRUE(decals_near(decals, point).empty());
+    EXPECT_TRUE(near(decals, point).empty());
   }
 }
 

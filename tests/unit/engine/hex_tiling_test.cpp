@@ -441,7 +441,7 @@ TEST(HexTiling, AnyCoordinateGivesAFiniteSlope) {
       const vec2<double> slope = slopes_at(tiled, {x, y});
       EXPECT_TRUE(std::isfinite(slope.x) && std::isfinite(slope.y)) << x << ", " << y;
       const double nan = std::nan("");
-      const vec2<double> far = sample_slopes<double>(tiled, {x, y}, {nan, inf}, {0, nan});
+      const vec2<double> far = sample_slopes<double>(tiled, vec2<double>{x, y}, {nan, inf}, {0, nan});
       EXPECT_TRUE(std::isfinite(far.x) && std::isfinite(far.y)) << x << ", " << y;
     }
 }
