@@ -143,19 +143,6 @@ TEST(Commands, ViewTakesTwoAnglesAndLeavesTheSceneItsPlace) {
   EXPECT_NE(before, texels({"s.json", "--view", "30", "-15"}));
 }
 
-TEST(Commands, PicturesTooLargeForTheMemoryAreRefusedWithWhatFits) {
-  const Folder folder;
-  // The scene does not exist: the size is looked at first.
-  const Outcome run = run_program({"render", "none.json", "-o", "a.png", "--size", "16384"}, folder.path());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.error, HasSubstr("--size 16384x16384 with --samples 3"));
-  EXPECT_THAT(run.error, HasSubstr("--size 5461x5461 with --samples 3 or --samples 1 at this size"));
-  const Outcome raw =
-      run_program({"render", "none.json", "-o", "a.png", "--size", "16384", "--aov", "uv"}, folder.path());
-  EXPECT_THAT(raw.error, HasSubstr("none.json")); // one sample a pixel fits
-  EXPECT_THAT(folder.files(), IsEmpty());
-}
-
 TEST(Commands, ResultsDoNotDependOnTheNumberOfThreads) {
   const Folder folder;
   const auto texels = [&](const std::vector<std::string>& threads) {

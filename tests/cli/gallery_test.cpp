@@ -110,8 +110,7 @@ TEST(Gallery, FoldersThatCannotBeUsedAreRefusedBeforeTheWork) {
                                                     {"gallery", "-o", "none/g"},
                                                     {"gallery", "-o", "g", "--assets", "none"},
                                                     {"gallery", "-o", "g", "--assets", "file"},
-                                                    {"gallery", "-o", "g", "--assets", "."},
-                                                    {"gallery", "-o", "g", "--size", "16384"}};
+                                                    {"gallery", "-o", "g", "--assets", "."}};
   for (const auto& arguments : wrong) {
     const Outcome run = run_program(arguments, folder.path());
     EXPECT_EQ(run.status, 1) << testing::PrintToString(arguments) << run.error;
