@@ -60,7 +60,9 @@ void expect_same(const char* what, const Job& job, const ImageOf& image_of) {
   }
 }
 
-/// Degrees between the normals of a picture and the reference's.
+/// Degrees between the normals of a picture and the reference's. The worst measured: 3.7 degrees in one pixel
+/// of the demo, where an octave of its turbulence passes through zero and its slope jumps; without the noise,
+/// and in the other scenes, less than 0.01.
 void expect_near_the_reference(const std::string& name, const scene::Scene& scene) {
   const auto normals = [&](simd::Isa isa) {
     const simd::ForcedIsa forced(isa);
