@@ -94,7 +94,7 @@ void gather_pairs(Words words, const WordPairs& pairs, int begin, int end) {
     bits_t<T> sum(0U);
     for (int k = 0; k < pairs.count; ++k) {
       const auto two =
-          gather_pair(words, load_index<T>(pairs.at[static_cast<std::size_t>(k)] + i), everywhere);
+          gather_words<2>(words, load_index<T>(pairs.at[static_cast<std::size_t>(k)] + i), everywhere);
       sum = sum + (two[0] + two[1]);
     }
     store(T(index_t<T>(sum)), pairs.sums + i);

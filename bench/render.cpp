@@ -68,12 +68,19 @@ mesh::TriangleMesh sphere() {
   return mesh;
 }
 
+/// As most normal maps come: in 8 bits.
+image::Image in_8_bits(image::Image map) {
+  for (float& value : map.texels) value = std::round(value * 255) / 255;
+  map.depth = image::Depth::unorm8;
+  return map;
+}
+
 scene::Scene make_scene() {
   scene::Scene scene;
   scene.meshes.push_back(sphere());
   scene.objects.push_back({"sphere", 0, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}});
-  scene.images[map_names[0]] = std::make_shared<image::Image>(scene::plates_normal_map(map_size));
-  scene.images[map_names[1]] = std::make_shared<image::Image>(scene::weave_normal_map(map_size));
+  scene.images[map_names[0]] = std::make_shared<image::Image>(in_8_bits(scene::plates_normal_map(map_size)));
+  scene.images[map_names[1]] = std::make_shared<image::Image>(in_8_bits(scene::weave_normal_map(map_size)));
   scene.images[map_names[2]] = scene.images[map_names[1]];
   scene.materials.push_back({"bumps", stack::BackFaces::cull, {}});
   for (int k = 0; k < 3; ++k) {
