@@ -134,8 +134,8 @@ TEST(Filters, OfEncodedNormalsFlattenWhatSlopesKeep) {
   const vec2<double> far{4, 4};
   const TiledMap slopes{.map = shared(image::make_slope_map(image, image::NormalChannels::xyz, true).map)};
   const TiledMap codes{.map = shared(image::make_encoded_map(image, image::NormalChannels::xyz, true).map)};
-  EXPECT_NEAR(sample_slopes(slopes, {0.5, 0.5}, far, far).x, std::sqrt(3.0) / 2, 1e-6);
-  EXPECT_NEAR(sample_slopes(codes, {0.5, 0.5}, far, far).x, lean / 1.5, 1e-6);
+  EXPECT_NEAR(sample_slopes(slopes, vec2<double>{0.5, 0.5}, far, far).x, std::sqrt(3.0) / 2, 1e-6);
+  EXPECT_NEAR(sample_slopes(codes, vec2<double>{0.5, 0.5}, far, far).x, lean / 1.5, 1e-6);
 }
 
 TEST(Filters, OfADocumentReachTheLayers) {
