@@ -88,12 +88,17 @@ template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE T texture_lod(vec2<T> dst_dx, vec2<T> dst_dy, vec2<T> size) {
   const vec2<T> x = size * dst_dx;
   const vec2<T> y = size * dst_dy;
+  const T square = max(dot(x, x), dot(y, y));
+  const mask_t<T> usual = (T(detail::least_square<T>) < square) & (square < T(detail::most_square<T>));
+  const T half = constant<T>(0.5);
+  const T lod = half * log2(square);
+  if (all(usual)) return lod;
   // The scale keeps the squares in range.
   const T scale = max(max_abs(x), max_abs(y));
   const T inverse = reciprocal_or_zero(scale);
   const vec2<T> u = inverse * x;
   const vec2<T> v = inverse * y;
-  return log2(scale * sqrt(max(constant<T>(0.5), max(dot(u, u), dot(v, v)))));
+  return select(usual, lod, log2(scale * sqrt(max(half, max(dot(u, u), dot(v, v))))));
 }
 
 } // namespace surfgrad

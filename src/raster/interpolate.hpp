@@ -6,6 +6,7 @@
 #include "raster/triangle_setup.hpp"
 #include "simd/lane.hpp"
 
+#include <surfgrad/noise_hash.hpp>
 #include <surfgrad/resolve.hpp>
 
 namespace surfgrad::raster {
@@ -25,24 +26,44 @@ struct Wanted {
 template <LaneScalar T>
 class LaneSetup {
  public:
-  /// which  of the setups: lane_count<T> numbers
+  /// which  of the setups: lane_count<T> numbers. Those of one triangle should lie together.
   LaneSetup(const TriangleSetup* setups, const std::int32_t* which) : setups_(setups), which_(which) {
-    for (int i = 1; i < lane_count<T>; ++i) one_ = one_ && which[i] == which[0];
+    const index_t<T> numbers = load_index<T>(which);
+    shown_[0] = which[0];
+    for (int i = 1; i < lane_count<T>; ++i) {
+      if (which[i] == which[i - 1]) continue;
+      if (count_ == most_blended) {
+        count_ = too_many;
+        return;
+      }
+      shown_[count_] = which[i];
+      in_[count_++] = numbers == detail::index_constant<T>(which[i]);
+    }
   }
 
   /// A float of each lane's setup.
   template <class Member>
   [[nodiscard]] T at(Member member) const {
-    if (one_) return T(static_cast<value_t<T>>(member(setups_[which_[0]])));
-    value_t<T> each[lane_count<T>];
-    for (int i = 0; i < lane_count<T>; ++i) each[i] = static_cast<value_t<T>>(member(setups_[which_[i]]));
-    return load<T>(each);
+    const auto of = [&](std::int32_t i) { return static_cast<value_t<T>>(member(setups_[i])); };
+    if (count_ == too_many) {
+      value_t<T> each[lane_count<T>];
+      for (int i = 0; i < lane_count<T>; ++i) each[i] = of(which_[i]);
+      return load<T>(each);
+    }
+    T value = T(of(shown_[0]));
+    for (int k = 1; k < count_; ++k) value = select(in_[k], T(of(shown_[k])), value);
+    return value;
   }
 
  private:
+  static constexpr int most_blended = 4; ///< more are cheaper lane by lane
+  static constexpr int too_many = -1;
+
   const TriangleSetup* setups_;
   const std::int32_t* which_;
-  bool one_ = true;
+  int count_ = 1;
+  std::int32_t shown_[most_blended];
+  mask_t<T> in_[most_blended];
 };
 
 /// Interpolates attributes at raster positions.

@@ -1,6 +1,7 @@
 #include "raster/tile_scan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace surfgrad::raster {
 
@@ -15,6 +16,29 @@ struct PixelRange {
         end(static_cast<int>(std::clamp(high - tile + 1.5, 0.0, double(count)))) {}
 };
 
+/// Columns of a row, from first up to end.
+struct Span {
+  int first, end;
+
+  /// Leaves those columns x whose slope * x + base exceeds a bound, to within a millionth of a column.
+  void clip(double slope, double base, double bound) {
+    constexpr double rounding = 1e-6; // of the division: far more than 2^-52 of any column
+    if (!(slope < 0) && !(slope > 0)) {
+      if (!(base > bound)) end = first;
+      return;
+    }
+    const double border = (bound - base) / slope;
+    const double away = bound > 0 ? rounding : -rounding; // into a certain span, out of a possible one
+    const auto column = [this](double x) {
+      return static_cast<int>(std::clamp(x, double(first), double(end)));
+    };
+    if (slope > 0)
+      first = column(std::ceil(border + away));
+    else
+      end = column(std::floor(border - away) + 1);
+  }
+};
+
 /// Calls visit(index in the tile, x, y of its centre) for the pixels of a tile that a triangle covers.
 template <class Visit>
 void for_each_covered_pixel(const Tile& tile, const TrianglePlanes& planes, const Visit& visit) {
@@ -26,38 +50,39 @@ void for_each_covered_pixel(const Tile& tile, const TrianglePlanes& planes, cons
   // The edge functions decide wherever rounding cannot turn their signs; covers() decides the rest.
   const std::array<vec3<double>, 3>& e = planes.edges();
   const std::array<double, 3> margin = planes.margins(tile.x + tile.width, tile.y + tile.height);
-  const double x_low = tile.x + columns.first + 0.5, x_high = tile.x + columns.end - 0.5;
-  const double y_low = tile.y + rows.first + 0.5, y_high = tile.y + rows.end - 0.5;
-  bool all_inside = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double least =
-        e[i].x * (e[i].x < 0 ? x_high : x_low) + e[i].y * (e[i].y < 0 ? y_high : y_low) + e[i].z;
-    const double most =
-        e[i].x * (e[i].x < 0 ? x_low : x_high) + e[i].y * (e[i].y < 0 ? y_low : y_high) + e[i].z;
-    if (most < -margin[i]) return;
-    all_inside = all_inside && least > margin[i];
-  }
+  const double x_first = tile.x + 0.5;
   for (int row = rows.first; row < rows.end; ++row) {
     const double y = tile.y + row + 0.5;
-    const std::array<double, 3> base{e[0].y * y + e[0].z, e[1].y * y + e[1].z, e[2].y * y + e[2].z};
-    for (int column = columns.first; column < columns.end; ++column) {
-      const double x = tile.x + column + 0.5;
-      if (!all_inside) {
-        const double a = e[0].x * x + base[0], b = e[1].x * x + base[1], c = e[2].x * x + base[2];
-        if (a < -margin[0] || b < -margin[1] || c < -margin[2]) continue;
-        const bool certain = a > margin[0] && b > margin[1] && c > margin[2];
-        if (!certain && !planes.covers(x, y)) continue;
-      }
-      visit(row * tile.width + column, x, y);
+    Span possible{columns.first, columns.end};
+    Span certain = possible;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double base = e[i].x * x_first + (e[i].y * y + e[i].z);
+      possible.clip(e[i].x, base, -margin[i]);
+      certain.clip(e[i].x, base, margin[i]);
     }
+    const int end = possible.end;
+    const int certain_first = std::clamp(certain.first, possible.first, std::max(end, possible.first));
+    const int certain_end = std::clamp(certain.end, certain_first, std::max(end, certain_first));
+    const auto visit_if_covered = [&](int from, int to) {
+      for (int x = from; x < to; ++x)
+        if (planes.covers(x_first + x, y)) visit(row * tile.width + x, x_first + x, y);
+    };
+    visit_if_covered(possible.first, certain_first);
+    for (int x = certain_first; x < certain_end; ++x) visit(row * tile.width + x, x_first + x, y);
+    visit_if_covered(certain_end, end);
   }
 }
 
 } // namespace
 
 void TileScan::drop_hidden() {
-  for (const int owner : owners_)
-    if (owner != nothing) ++shown_[static_cast<std::size_t>(owner)].pixels;
+  // Neighbours mostly show the same triangle: they are counted together.
+  for (std::size_t i = 0; i < owners_.size();) {
+    const std::size_t first = i;
+    const int owner = owners_[first];
+    while (i < owners_.size() && owners_[i] == owner) ++i;
+    if (owner != nothing) shown_[static_cast<std::size_t>(owner)].pixels += static_cast<int>(i - first);
+  }
   renumbered_.resize(shown_.size());
   int kept = 0;
   for (std::size_t i = 0; i < shown_.size(); ++i) {
@@ -67,11 +92,16 @@ void TileScan::drop_hidden() {
     shown_[static_cast<std::size_t>(kept++)].first_pixel = nothing;
   }
   shown_.erase(shown_.begin() + kept, shown_.end());
-  for (std::size_t i = 0; i < owners_.size(); ++i) {
-    if (owners_[i] == nothing) continue;
-    owners_[i] = renumbered_[static_cast<std::size_t>(owners_[i])];
-    Shown& shown = shown_[static_cast<std::size_t>(owners_[i])];
-    if (shown.first_pixel == nothing) shown.first_pixel = static_cast<int>(i);
+  for (std::size_t i = 0; i < owners_.size();) {
+    const std::size_t first = i;
+    const int owner = owners_[first];
+    while (i < owners_.size() && owners_[i] == owner) ++i;
+    if (owner == nothing) continue;
+    const int number = renumbered_[static_cast<std::size_t>(owner)];
+    std::fill(owners_.begin() + static_cast<std::ptrdiff_t>(first),
+              owners_.begin() + static_cast<std::ptrdiff_t>(i), number);
+    Shown& shown = shown_[static_cast<std::size_t>(number)];
+    if (shown.first_pixel == nothing) shown.first_pixel = static_cast<int>(first);
   }
 }
 

@@ -124,15 +124,20 @@ void TileComposer::collect(Scratch& s) const {
   }
   const raster::Tile& tile = s.composed.tile;
   const auto owners = s.scan.owners();
-  for (int i = 0, y = 0; y < tile.height; ++y)
-    for (int x = 0; x < tile.width; ++x, ++i) {
-      const int owner = owners[static_cast<std::size_t>(i)];
+  for (int y = 0; y < tile.height; ++y)
+    for (int x = 0; x < tile.width;) {
+      const int run = x;
+      const int owner = owners[static_cast<std::size_t>(y * tile.width + run)];
+      while (x < tile.width && owners[static_cast<std::size_t>(y * tile.width + x)] == owner) ++x;
       if (owner == raster::TileScan::nothing) continue;
-      const auto at = static_cast<std::size_t>(s.next[static_cast<std::size_t>(owner)]++);
-      s.which[at] = owner;
-      s.pixel[at] = i;
-      s.x[at] = static_cast<float>(tile.x + x) + 0.5f;
-      s.y[at] = static_cast<float>(tile.y + y) + 0.5f;
+      auto at = static_cast<std::size_t>(s.next[static_cast<std::size_t>(owner)]);
+      s.next[static_cast<std::size_t>(owner)] += x - run;
+      for (int column = run; column < x; ++column, ++at) {
+        s.which[at] = owner;
+        s.pixel[at] = y * tile.width + column;
+        s.x[at] = static_cast<float>(tile.x + column) + 0.5f;
+        s.y[at] = static_cast<float>(tile.y + y) + 0.5f;
+      }
     }
   s.composed.count = first;
   s.setups.resize(shown.size());
