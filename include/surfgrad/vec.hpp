@@ -156,13 +156,16 @@ template <Scalar T>
   const T inverse = one / sqrt(select(usual, square, one));
   const Normalized<T> result{inverse * v, inverse};
   if (all(usual)) return result;
-  // The longest component brings the others into range.
-  const T inverse_size = reciprocal_or_zero(max_abs(v));
-  const vec3<T> w = inverse_size * v;
-  // One component of w is 1 to rounding, so its square sum is at least 1/2 unless v vanishes.
-  const T inverse_of_w = one / sqrt(max(constant<T>(0.5), dot(w, w)));
+  // A power of two brings any other into that range, so that no result depends on which way it went.
+  constexpr value_t<T> large = 1 / (std::numeric_limits<value_t<T>>::min() * value_t<T>(1ll << 50));
+  const T zero = T(value_t<T>(0));
+  const T size = max_abs(v);
+  const mask_t<T> vanishes = size < T(std::numeric_limits<value_t<T>>::min());
+  const T factor = select(vanishes, zero, select(size < one, T(large), T(1 / large)));
+  const vec3<T> w = factor * v;
+  const T inverse_of_w = one / sqrt(select(vanishes, one, dot(w, w)));
   return {select<T>(usual, result.unit, inverse_of_w * w),
-          select(usual, result.inverse_length, inverse_of_w * inverse_size)};
+          select(usual, result.inverse_length, inverse_of_w * factor)};
 }
 
 } // namespace detail

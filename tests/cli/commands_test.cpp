@@ -66,8 +66,8 @@ void expect_unit_or_zero(const image::Image& picture) {
       worst = std::max(worst, std::abs(length - 1));
       ++seen;
     }
-  // Three components rounded to float: at most their relative rounding, 2^-24, and some for hypot.
-  EXPECT_LE(worst, 1.2e-7);
+  // Normalised in float: 3 eps (normalize_or_zero).
+  EXPECT_LE(worst, 3.6e-7);
   EXPECT_GT(seen, picture.width * picture.height / 10);
 }
 

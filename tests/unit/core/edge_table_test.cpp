@@ -319,7 +319,7 @@ TYPED_TEST(EdgeTable, Screen) {
       flat(screen_derivatives(E::z, E::z, mat4<T>{zero_row, zero_row, zero_row, zero_row}, T(3), T(4))));
   const double lowest = std::numeric_limits<T>::min_exponent - 1;
   const auto lod = [](vec2<T> dx, vec2<T> dy) { return flat(texture_lod(dx, dy, vec2<T>{T(8), T(8)})); };
-  E::gives("lod, zero", lod(E::o2, E::o2), {lowest - 0.5});
+  E::gives("lod, zero", lod(E::o2, E::o2), {lowest});
   E::gives("lod, one axis", lod(E::s, E::o2), {3});
   E::gives("lod, mirrored", lod(-E::s, -E::t), {3});
   E::gives_finite("lod, NaN", lod(vec2<T>{E::nan, k0}, E::t));
