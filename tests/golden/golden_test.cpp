@@ -32,7 +32,7 @@ TEST_P(Golden, PictureIsTheOneThatWasLookedAt) {
   ASSERT_EQ(kept.width, side);
   ASSERT_EQ(kept.height, side);
   // Metric: share of samples more than 2 codes (of 255) off. The pictures are deterministic but for
-  // the last bit of the C library's inverse sine and tangent in tangents and sky: 0.1 %.
+  // the last bit of the C library's inverse sine and tangent in tangents: 0.1 %.
   int off = 0;
   double worst = 0;
   for (std::size_t i = 0; i < kept.texels.size(); ++i) {

@@ -31,12 +31,14 @@ foreach(object IN LISTS objects)
     if(NOT line MATCHES "^[0-9a-f]+ ([A-Za-z]) (.*)$")
       continue()
     endif()
-    if(CMAKE_MATCH_1 MATCHES "[uVvRDB]") # data, which holds no instructions
+    set(type ${CMAKE_MATCH_1})
+    set(symbol "${CMAKE_MATCH_2}")
+    if(type MATCHES "[uVvRDB]") # data, which holds no instructions
       continue()
     endif()
     math(EXPR own "${own} + 1")
     # Whole words: the namespace of this project, or Highway's for the set.
-    if(NOT CMAKE_MATCH_2 MATCHES "(^|[^A-Za-z0-9_])${ISA}::")
+    if(NOT symbol MATCHES "(^|[^A-Za-z0-9_])${ISA}::")
       list(APPEND strangers "${object}: ${line}")
     endif()
   endforeach()
