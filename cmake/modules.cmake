@@ -17,8 +17,11 @@ target_compile_options(surfgrad_options INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   $<$<BOOL:${SURFGRAD_WARNINGS_AS_ERRORS}>:-Werror>)
 if(SURFGRAD_SANITIZE)
+  # All but what surfgrad_for_each_isa compiles for one instruction set.
+  set(instrumented $<NOT:$<BOOL:$<TARGET_PROPERTY:SURFGRAD_UNINSTRUMENTED>>>)
   target_compile_options(surfgrad_options INTERFACE
-    -fsanitize=${SURFGRAD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<${instrumented}:-fsanitize=${SURFGRAD_SANITIZE}> $<${instrumented}:-fno-sanitize-recover=all>
+    -fno-omit-frame-pointer
     # gcc cannot follow initialisation through its own instrumentation (seen in libstdc++'s std::regex).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(surfgrad_options INTERFACE -fsanitize=${SURFGRAD_SANITIZE})
@@ -74,7 +77,8 @@ function(surfgrad_for_each_isa NAME)
     target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} surfgrad_options)
     target_compile_definitions(${target} PRIVATE SURFGRAD_ISA_NAMESPACE=${isa} HWY_COMPILE_ONLY_STATIC)
     if(isa IN_LIST SURFGRAD_VECTOR_ISAS)
-      target_compile_options(${target} PRIVATE ${SURFGRAD_FLAGS_${isa}} -O3 -fno-sanitize=all ${SURFGRAD_INLINE_FLAGS})
+      target_compile_options(${target} PRIVATE ${SURFGRAD_FLAGS_${isa}} -O3 ${SURFGRAD_INLINE_FLAGS})
+      set_target_properties(${target} PROPERTIES SURFGRAD_UNINSTRUMENTED ON)
     else()
       target_compile_definitions(${target} PRIVATE SURFGRAD_ISA_IS_PLAIN=1)
     endif()

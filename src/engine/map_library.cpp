@@ -60,7 +60,7 @@ void MapLibrary::require_size(const image::Image& image, int most_texels, int co
   };
   if (std::max(image.width, image.height) > most_texels)
     refuse("expected at most " + std::to_string(most_texels) + " texels a side");
-  constexpr std::int64_t most_words = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int64_t most_words = std::numeric_limits<std::int32_t>::max() - words_read_ahead;
   if (image::words_of_map(image.width, image.height, components) > most_words)
     refuse("with its mip levels that is more than " + std::to_string(most_words) + " numbers");
 }

@@ -192,7 +192,7 @@ Map with_pyramid(Texels texels, int width, int height, int components, TexelCode
   map.format = code.format;
   map.scale = code.scale;
   const std::int64_t words = words_of_map(width, height, map.texel_words());
-  assert(words <= std::numeric_limits<std::int32_t>::max());
+  assert(words <= std::numeric_limits<std::int32_t>::max() - words_read_ahead);
   map.words.resize(static_cast<std::size_t>(words + words_read_ahead));
   for (std::int64_t first = 0;;) {
     map.level_table.insert(map.level_table.end(),

@@ -63,7 +63,7 @@ Surface place_mesh(const mesh::TriangleMesh& mesh, const mat4<double>& world_fro
 TrianglePlanes::TrianglePlanes(const std::array<vec3<double>, 3>& corners) : corners_(corners) {
   const double det = dot(corners[0], cross(corners[1], corners[2]));
   counter_clockwise_ = det > 0;
-  degenerate_ = !(det > 0) && !(det < 0);
+  degenerate_ = det == 0 || !std::isfinite(det);
   if (degenerate_) return;
   // Not divided by det: the scale cancels in every use but inverse_w.
   for (std::size_t i = 0; i < 3; ++i) {

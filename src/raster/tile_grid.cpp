@@ -45,8 +45,12 @@ TileGrid::TileGrid(const std::vector<Surface>& surfaces, const Projection& proje
     : width_(width), height_(height), tile_width_(tile_width), tile_height_(tile_height),
       columns_((width + tile_width - 1) / tile_width), rows_((height + tile_height - 1) / tile_height) {
   const auto tiles_of = [&](const TriangleId& id) {
+    const std::array<vec3<double>, 3> corners = projection.corners(surfaces[id.surface], id.triangle);
+    // w is linear over a triangle: one whose corners are too near, or behind the eye, is so everywhere.
+    const double near = projection.near();
+    if (corners[0].z < near && corners[1].z < near && corners[2].z < near) return TileRange{};
     double x_low = INFINITY, x_high = -INFINITY, y_low = INFINITY, y_high = -INFINITY;
-    for (const vec3<double>& c : projection.corners(surfaces[id.surface], id.triangle)) {
+    for (const vec3<double>& c : corners) {
       // A corner at or behind the eye has no image: the triangle may reach anywhere.
       if (!(c.z > 0)) return TileRange{0, columns_, 0, rows_};
       x_low = std::min(x_low, c.x / c.z);

@@ -29,13 +29,14 @@ struct Span {
     }
     const double border = (bound - base) / slope;
     const double away = bound > 0 ? rounding : -rounding; // into a certain span, out of a possible one
-    const auto column = [this](double x) {
-      return static_cast<int>(std::clamp(x, double(first), double(end)));
+    // NaN, where the edge functions overflow, leaves the span as it is.
+    const auto column = [this](double x, int otherwise) {
+      return x == x ? static_cast<int>(std::clamp(x, double(first), double(end))) : otherwise;
     };
     if (slope > 0)
-      first = column(std::ceil(border + away));
+      first = column(std::ceil(border + away), first);
     else
-      end = column(std::floor(border - away) + 1);
+      end = column(std::floor(border - away) + 1, end);
   }
 };
 

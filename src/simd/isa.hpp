@@ -21,8 +21,8 @@ enum class Isa {
 /// Those that this program holds and this processor runs, slowest first.
 [[nodiscard]] std::vector<Isa> available_isas();
 
-/// The one in use: the fastest, unless the environment variable SURFGRAD_ISA names another or a Forced
-/// one is alive. Throws InputError where that is no instruction set, MachineError where the processor
+/// The one in use: the fastest, unless the environment variable SURFGRAD_ISA names another or a
+/// ForcedIsa is alive. Throws InputError where that is no instruction set, MachineError where the processor
 /// lacks it.
 [[nodiscard]] Isa current_isa();
 

@@ -4,7 +4,7 @@
 ///
 /// Only for sources that are compiled once for each instruction set (surfgrad_for_each_isa in CMake):
 /// SURFGRAD_ISA_NAMESPACE keeps their types apart, so that the linker never mixes their functions. Every
-/// operation gives each lane the bits that the core's one-lane float gives.
+/// operation gives each lane the bits that the core's one-lane float gives, but for the sign of NaN.
 
 #include "simd/lane.hpp"
 

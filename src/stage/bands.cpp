@@ -2,6 +2,7 @@
 
 #include "diagnostic/error.hpp"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -60,8 +61,11 @@ void for_each_band(int count, const Report& report, const std::function<void(int
   std::atomic<bool> stop{false};
   int next = count;
   int done = 0;
-  // One more than there are threads: none waits while a band is taken.
-  const auto under_way = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 1;
+  // One is taken while others are made. A band is made by several threads: few suffice.
+  const std::size_t threads =
+      std::min(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+               static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+  const std::size_t under_way = std::min<std::size_t>(threads, 3) + 1;
   tbb::parallel_pipeline(
       under_way,
       tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {

@@ -18,7 +18,7 @@ void reshape(image::Image& image, int width, int height, int channels);
 [[nodiscard]] BandSink into(image::Image& picture);
 
 /// Makes a picture's bands in parallel and hands them over in order: whoever takes them works while others
-/// are made. So many are under way at a time that every thread has one; memory is theirs.
+/// are made. A few are under way at a time; memory is theirs.
 ///
 /// count      bands; 0 is the lowest
 /// make       makes a band: (band, image to fill); any thread. The image is an old band or empty
