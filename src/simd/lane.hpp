@@ -63,7 +63,7 @@ constexpr void store(T a, value_t<T>* to) {
 /// Words that packs may read beyond those asked for: arrays end with as many that nobody uses.
 inline constexpr int words_read_ahead = 3;
 
-/// The words at `index` and behind it, up to four, as gather reads them.
+/// The words at `index` and behind it, two or four, as gather reads them.
 template <int Count, class Index, class Mask>
 [[nodiscard]] auto gather_words(Words words, const Index& index, const Mask& active) {
   std::array<decltype(gather(words, index, active)), Count> result;

@@ -172,36 +172,44 @@ HWY_INLINE auto each_block(const Load& load, std::size_t first, std::size_t step
   }
 }
 
-/// The words at `index` and behind it, as gather reads them. A load and part of a shuffle for each lane cost
-/// less than gathers of each word.
+/// The words at `index` and behind it, as gather reads them: two by a gather of pairs, four by a load and
+/// part of a shuffle for each lane. Either costs less than gathers of each word.
 template <int Count>
 HWY_INLINE std::array<Bits, Count> gather_words(Words words, Index index, Mask m) {
-  static_assert(Count >= 2 && Count <= 4);
-  alignas(64) std::int32_t at[pack_width];
-  hn::Store(hn::IfThenElseZero(hn::RebindMask(IndexTag(), m.v), index.v), IndexTag(), at);
-  const auto load = [&](std::size_t lane) {
-    return hn::LoadU(hn::FixedTag<std::uint32_t, 4>(), words.data + at[lane]);
-  };
-  // Lanes k, k + 4, k + 8, ... of one vector become the rows k of a 4x4 transposition in every block.
-  const hn::Vec<BitsTag> a = each_block<pack_width>(load, 0, 4);
-  const hn::Vec<BitsTag> b = each_block<pack_width>(load, 1, 4);
-  const hn::Vec<BitsTag> c = each_block<pack_width>(load, 2, 4);
-  const hn::Vec<BitsTag> d = each_block<pack_width>(load, 3, 4);
-  const hn::Repartition<std::uint64_t, BitsTag> pair;
-  const auto low_ab = hn::BitCast(pair, hn::InterleaveLower(BitsTag(), a, b));
-  const auto low_cd = hn::BitCast(pair, hn::InterleaveLower(BitsTag(), c, d));
+  static_assert(Count == 2 || Count == 4);
   const hn::Mask<BitsTag> mb = hn::RebindMask(BitsTag(), m.v);
-  const auto word = [&](auto pairs) { return Bits(hn::IfThenElseZero(mb, hn::BitCast(BitsTag(), pairs))); };
-  std::array<Bits, Count> result;
-  result[0] = word(hn::InterleaveLower(pair, low_ab, low_cd));
-  result[1] = word(hn::InterleaveUpper(pair, low_ab, low_cd));
-  if constexpr (Count > 2) {
+  const hn::Vec<IndexTag> from = hn::IfThenElseZero(hn::RebindMask(IndexTag(), m.v), index.v);
+  const hn::Repartition<std::uint64_t, BitsTag> pair;
+  if constexpr (Count == 2) {
+    const auto* base = reinterpret_cast<const std::uint64_t*>(words.data);
+    const auto pairs = [&](auto half) {
+      const auto offset = hn::ShiftLeft<2>(hn::PromoteTo(hn::Repartition<std::int64_t, BitsTag>(), half));
+      return hn::BitCast(BitsTag(), hn::GatherOffset(pair, base, offset));
+    };
+    const hn::Vec<BitsTag> low = pairs(hn::LowerHalf(hn::Half<IndexTag>(), from));
+    const hn::Vec<BitsTag> high = pairs(hn::UpperHalf(hn::Half<IndexTag>(), from));
+    return {Bits(hn::IfThenElseZero(mb, hn::ConcatEven(BitsTag(), high, low))),
+            Bits(hn::IfThenElseZero(mb, hn::ConcatOdd(BitsTag(), high, low)))};
+  } else {
+    alignas(64) std::int32_t at[pack_width];
+    hn::Store(from, IndexTag(), at);
+    const auto load = [&](std::size_t lane) {
+      return hn::LoadU(hn::FixedTag<std::uint32_t, 4>(), words.data + at[lane]);
+    };
+    // Lanes k, k + 4, k + 8, ... of one vector become the rows k of a 4x4 transposition in every block.
+    const hn::Vec<BitsTag> a = each_block<pack_width>(load, 0, 4);
+    const hn::Vec<BitsTag> b = each_block<pack_width>(load, 1, 4);
+    const hn::Vec<BitsTag> c = each_block<pack_width>(load, 2, 4);
+    const hn::Vec<BitsTag> d = each_block<pack_width>(load, 3, 4);
+    const auto low_ab = hn::BitCast(pair, hn::InterleaveLower(BitsTag(), a, b));
+    const auto low_cd = hn::BitCast(pair, hn::InterleaveLower(BitsTag(), c, d));
+    const auto word = [&](auto pairs) { return Bits(hn::IfThenElseZero(mb, hn::BitCast(BitsTag(), pairs))); };
     const auto high_ab = hn::BitCast(pair, hn::InterleaveUpper(BitsTag(), a, b));
     const auto high_cd = hn::BitCast(pair, hn::InterleaveUpper(BitsTag(), c, d));
-    result[2] = word(hn::InterleaveLower(pair, high_ab, high_cd));
-    if constexpr (Count > 3) result[3] = word(hn::InterleaveUpper(pair, high_ab, high_cd));
+    return {word(hn::InterleaveLower(pair, low_ab, low_cd)), word(hn::InterleaveUpper(pair, low_ab, low_cd)),
+            word(hn::InterleaveLower(pair, high_ab, high_cd)),
+            word(hn::InterleaveUpper(pair, high_ab, high_cd))};
   }
-  return result;
 }
 
 /// Whether an index is the same in all lanes that are active, and what it is there: 0 where none is.
