@@ -117,7 +117,7 @@ TEST(MapLibrary, RefusesImagesWhoseMapsCannotBeAddressed) {
   EXPECT_EQ(refusal(1, 2'000'000, relief), "n.png: (named by s.json:7: layers[1].map): is 1x2000000; "
                                            "expected at most 1048576 texels a side");
   EXPECT_EQ(refusal(40'000, 40'000, slopes), "n.png: (named by s.json:7: layers[1].map): is 40000x40000; "
-                                             "with its mip levels that is more than 2147483647 numbers");
+                                             "with its mip levels that is more than 2147483644 numbers");
 }
 
 TEST(MapLibrary, MakesCubeMapsOfOneFileOrSixAndSaysWhichFaceDoesNotFit) {
