@@ -17,11 +17,8 @@ target_compile_options(surfgrad_options INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   $<$<BOOL:${SURFGRAD_WARNINGS_AS_ERRORS}>:-Werror>)
 if(SURFGRAD_SANITIZE)
-  # All but what surfgrad_for_each_isa compiles for one instruction set.
-  set(instrumented $<NOT:$<BOOL:$<TARGET_PROPERTY:SURFGRAD_UNINSTRUMENTED>>>)
   target_compile_options(surfgrad_options INTERFACE
-    $<${instrumented}:-fsanitize=${SURFGRAD_SANITIZE}> $<${instrumented}:-fno-sanitize-recover=all>
-    -fno-omit-frame-pointer
+    -fsanitize=${SURFGRAD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # gcc cannot follow initialisation through its own instrumentation (seen in libstdc++'s std::regex).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(surfgrad_options INTERFACE -fsanitize=${SURFGRAD_SANITIZE})
@@ -43,8 +40,12 @@ function(surfgrad_module NAME)
   endif()
 endfunction()
 
-# The instruction sets that the kernels are compiled for, and the compiler's flags for each.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+# The instruction sets that the kernels are compiled for, and the compiler's flags for each. None under
+# sanitizers: an instrumented kernel is not inlined, and functions that it leaves behind could be given by the
+# linker to processors without the instruction set. The emulated lanes run the same code there.
+if(SURFGRAD_SANITIZE)
+  set(SURFGRAD_VECTOR_ISAS)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(SURFGRAD_VECTOR_ISAS sse4 avx2 avx512)
   set(SURFGRAD_FLAGS_sse4 -msse4.2 -mpclmul -maes)
   set(SURFGRAD_FLAGS_avx2 -mavx2 -mfma -mf16c -mbmi -mbmi2 -mpclmul -maes)
@@ -65,8 +66,7 @@ else()
 endif()
 
 # surfgrad_for_each_isa(NAME SOURCES ... [DEPENDS modules...]): adds sources to a module once for each
-# instruction set. Optimised in every build type, and never instrumented: a kernel that is not inlined
-# could leave functions behind that the linker gives to processors without the instruction set.
+# instruction set. Those for one are optimised in every build type.
 function(surfgrad_for_each_isa NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   list(TRANSFORM ARG_DEPENDS PREPEND surfgrad_)
@@ -78,7 +78,6 @@ function(surfgrad_for_each_isa NAME)
     target_compile_definitions(${target} PRIVATE SURFGRAD_ISA_NAMESPACE=${isa} HWY_COMPILE_ONLY_STATIC)
     if(isa IN_LIST SURFGRAD_VECTOR_ISAS)
       target_compile_options(${target} PRIVATE ${SURFGRAD_FLAGS_${isa}} -O3 ${SURFGRAD_INLINE_FLAGS})
-      set_target_properties(${target} PROPERTIES SURFGRAD_UNINSTRUMENTED ON)
     else()
       target_compile_definitions(${target} PRIVATE SURFGRAD_ISA_IS_PLAIN=1)
       if(NOT SURFGRAD_SANITIZE)

@@ -15,14 +15,14 @@
 #define SURFGRAD_DECLARE_IN(isa, result, name, parameters) namespace isa { result name parameters; }
 #define SURFGRAD_CASE_OF(isa, name) case ::surfgrad::simd::Isa::isa: return &isa::name;
 
-#if HWY_ARCH_X86
+#if HWY_ARCH_X86 && !defined(SURFGRAD_NO_VECTOR_ISAS)
 #define SURFGRAD_DECLARE_IN_VECTORS(result, name, parameters) \
   SURFGRAD_DECLARE_IN(sse4, result, name, parameters)         \
   SURFGRAD_DECLARE_IN(avx2, result, name, parameters)         \
   SURFGRAD_DECLARE_IN(avx512, result, name, parameters)
 #define SURFGRAD_CASES_OF_VECTORS(name) \
   SURFGRAD_CASE_OF(sse4, name) SURFGRAD_CASE_OF(avx2, name) SURFGRAD_CASE_OF(avx512, name)
-#elif HWY_ARCH_ARM_A64
+#elif HWY_ARCH_ARM_A64 && !defined(SURFGRAD_NO_VECTOR_ISAS)
 #define SURFGRAD_DECLARE_IN_VECTORS(result, name, parameters) SURFGRAD_DECLARE_IN(neon, result, name, parameters)
 #define SURFGRAD_CASES_OF_VECTORS(name) SURFGRAD_CASE_OF(neon, name)
 #else

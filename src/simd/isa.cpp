@@ -24,15 +24,19 @@ constexpr std::array named {
 #if HWY_ARCH_X86
       Named{"sse4", Isa::sse4, HWY_SSE4}, Named{"avx2", Isa::avx2, HWY_AVX2},
       Named{"avx512", Isa::avx512, HWY_AVX3},
-#elif HWY_ARCH_ARM_A64
+#elif HWY_ARCH_ARM_A64 && !defined(SURFGRAD_NO_VECTOR_ISAS)
       Named{"neon", Isa::neon, 0}, // every such processor has it
 #endif
 };
 
 /// Asked once: inside a virtual machine the question takes tens of microseconds.
 std::int64_t supported_targets() {
+#ifdef SURFGRAD_NO_VECTOR_ISAS
+  return 0; // compiled without their kernels
+#else
   static const std::int64_t targets = hwy::SupportedTargets();
   return targets;
+#endif
 }
 
 bool runs(const Named& isa) { return isa.target == 0 || (supported_targets() & isa.target) != 0; }

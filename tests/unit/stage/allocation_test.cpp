@@ -1,5 +1,6 @@
 // Once its lists have grown, a thread composes tiles without asking for memory.
 
+#include "counted_new.hpp"
 #include "tile_scenes.hpp"
 
 #include "render/camera.hpp"
@@ -7,45 +8,17 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-
-std::atomic<long> allocations{0};
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  // aligned_alloc takes whole multiples of the alignment.
-  void* memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-} // namespace
-
-// This program's own: every other form of new ends in one of these two.
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-
 namespace surfgrad::stage {
 namespace {
 
 long compose_all(TileComposer& composer) {
-  const long before = allocations;
+  const long before = test::allocations();
   int pixels = 0;
   for (int row = 0; row < composer.grid().rows(); ++row)
     for (int column = 0; column < composer.grid().columns(); ++column)
       pixels += composer.compose(column, row).count;
   EXPECT_GT(pixels, 500);
-  return allocations - before;
+  return test::allocations() - before;
 }
 
 TEST(Tiles, AreComposedWithoutAllocationOnceAllAreThere) {
