@@ -7,12 +7,9 @@
 #include "stage/stage.hpp"
 #include "stage/tile_composer.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <mutex>
 
 namespace surfgrad::bake {
 namespace {
@@ -29,60 +26,49 @@ std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std
   return count;
 }
 
-/// Fits the first caches with all that is kept of a pixel.
-constexpr int tile_side = 32;
-
 /// Bakes rows of tiles.
 class Bands {
  public:
   Bands(const stage::Stage& stage, const scene::Scene& scene, const Options& options)
       : scene_(scene), options_(options), slot_(stage.slot_of(0)),
         projection_(raster::Projection::texture(slot_, options.width, options.height)),
-        composer_(stage, projection_, options.width, options.height, tile_side, tile_side,
+        composer_(stage, projection_, options.width, options.height, stage::tile_side, stage::tile_side,
                   {.vertex_frame = options.space == Space::tangent, .slot = slot_}) {}
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
   void make(int row, image::Image& band) {
     const raster::Tile first = composer_.grid().tile(0, row);
     stage::reshape(band, options_.width, first.height, 3);
-    Counts counts;
-    std::mutex adding;
-    tbb::parallel_for(tbb::blocked_range<int>(0, composer_.grid().columns(), 8),
-                      [&](const tbb::blocked_range<int>& columns) {
-                        Counts own;
-                        for (int column = columns.begin(); column < columns.end(); ++column)
-                          encode(composer_.compose(column, row), band, own);
-                        const std::lock_guard<std::mutex> lock(adding);
-                        add(own, counts);
-                      });
-    const std::lock_guard<std::mutex> lock(adding_);
-    add(counts, counts_);
+    composer_.compose_row(row, [&](const stage::ComposedTile& tile) { encode(tile, band); });
   }
-  [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] Counts counts() const {
+    Counts sum;
+    for (const Own& own : own_) {
+      sum.covered += own.counts.covered;
+      sum.overlapping += own.counts.overlapping;
+      sum.singular += own.counts.singular;
+      sum.clamped += own.counts.clamped;
+      sum.degenerate += own.counts.degenerate;
+    }
+    return sum;
+  }
 
  private:
-  /// Codes of a tile's pixels. One a thread.
-  struct Codes {
-    std::vector<float> values = std::vector<float>(5 * length);
-    static constexpr std::size_t length = tile_side * tile_side + most_lanes;
-    float* array(std::size_t i) { return values.data() + i * length; }
+  /// What one thread works with: the codes of a tile's pixels, and what it has counted.
+  struct Own {
+    Counts counts;
+    std::vector<float> codes = std::vector<float>(5 * length);
+    static constexpr std::size_t length = stage::tile_side * stage::tile_side + most_lanes;
+    float* array(std::size_t i) { return codes.data() + i * length; }
   };
 
-  static void add(const Counts& some, Counts& to) {
-    to.covered += some.covered;
-    to.overlapping += some.overlapping;
-    to.singular += some.singular;
-    to.clamped += some.clamped;
-    to.degenerate += some.degenerate;
-  }
-
-  void encode(const stage::ComposedTile& composed, image::Image& band, Counts& counts) {
-    Codes& codes = codes_.local();
+  void encode(const stage::ComposedTile& composed, image::Image& band) {
+    Own& own = own_.local();
     EncodeWork work{.space = options_.space,
                     .composed = &composed.results,
-                    .code = {codes.array(0), codes.array(1), codes.array(2)},
-                    .singular = codes.array(3),
-                    .clamped = codes.array(4)};
+                    .code = {own.array(0), own.array(1), own.array(2)},
+                    .singular = own.array(3),
+                    .clamped = own.array(4)};
     for (const stage::ComposedTile::Run& run : composed.runs) {
       work.linear = raster::linear_part(scene_.objects[run.surface].world_from_object);
       work.first = run.first;
@@ -103,11 +89,11 @@ class Bands {
       for (int i = 0; i < composed.count; ++i) sum += flags[i];
       return static_cast<std::int64_t>(sum);
     };
-    counts.covered += composed.count;
-    counts.overlapping += composed.overlapping;
-    counts.singular += set(work.singular);
-    counts.clamped += set(work.clamped);
-    counts.degenerate += set(composed.results.degenerate);
+    own.counts.covered += composed.count;
+    own.counts.overlapping += composed.overlapping;
+    own.counts.singular += set(work.singular);
+    own.counts.clamped += set(work.clamped);
+    own.counts.degenerate += set(composed.results.degenerate);
   }
 
   static void put(image::Image& band, int x, int y, float r, float g, float b) {
@@ -122,9 +108,7 @@ class Bands {
   std::size_t slot_;
   raster::Projection projection_;
   stage::TileComposer composer_;
-  tbb::enumerable_thread_specific<Codes> codes_;
-  std::mutex adding_;
-  Counts counts_;
+  tbb::enumerable_thread_specific<Own> own_;
 };
 
 } // namespace

@@ -138,7 +138,7 @@ CubeMap cube_of_faces(const std::array<Map, 6>& faces) {
           map.words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(c)));
       }
   }
-  map.words.resize(map.words.size() + words_read_ahead);
+  map.words.insert(map.words.end(), words_read_ahead, 0);
   return cube;
 }
 

@@ -1,6 +1,5 @@
 #include "image/height_map.hpp"
 
-#include "image/parallel.hpp"
 #include "image/pyramid.hpp"
 
 #include <algorithm>
@@ -24,9 +23,11 @@ std::vector<float> heights(const Image& image, int channel) {
 } // namespace
 
 Map make_height_map(const Image& image, int channel) {
-  std::vector<float> values = heights(image, channel);
-  const TexelCode code = is_integer(image.depth) ? code_for_scalars(values) : TexelCode{};
-  return with_pyramid(std::move(values), image.width, image.height, 1, code);
+  const std::vector<float> values = heights(image, channel);
+  const TexelRows rows = rows_of(values, image.width, 1);
+  const TexelCode code =
+      is_integer(image.depth) ? code_for_scalars(rows, image.width, image.height) : TexelCode{};
+  return with_pyramid(rows, image.width, image.height, 1, code);
 }
 
 Map make_height_slopes(const Image& image, int channel, Wraps wraps) {
@@ -42,16 +43,13 @@ Map make_height_slopes(const Image& image, int channel, Wraps wraps) {
     constexpr double most = saturated(std::numeric_limits<float>::max());
     return static_cast<float>(std::clamp(0.5 * size * (after - before), -most, most));
   };
-  std::vector<float> slopes(2 * h.size());
-  in_parallel(static_cast<std::size_t>(height), static_cast<std::size_t>(width), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < width; ++x) {
-      float* texel = &slopes[2 * (row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
+  const TexelRows rows = [&](int y, float* texel) {
+    for (int x = 0; x < width; ++x, texel += 2) {
       texel[0] = slope(at(x - 1, y), at(x + 1, y), width);
       texel[1] = slope(at(x, y - 1), at(x, y + 1), height);
     }
-  });
-  return with_pyramid(std::move(slopes), width, height, 2);
+  };
+  return with_pyramid(rows, width, height, 2);
 }
 
 } // namespace surfgrad::image

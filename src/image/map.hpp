@@ -1,6 +1,7 @@
 #pragma once
 
 #include "image/image.hpp"
+#include "image/uninitialised.hpp"
 
 #include <surfgrad/scalar.hpp>
 
@@ -36,11 +37,11 @@ enum class TexelFormat {
 struct Map {
   int components = 0; ///< 1 scalar, 2 slope, 3 direction
   TexelFormat format = TexelFormat::floats;
-  double scale = 1;                         ///< value of the code 1; of slopes a power of two
-  bool encoded = false;                     ///< texels are normals, to become slopes after they are filtered
-  int level_count = 0;                      ///< at least 1
-  std::vector<std::uint32_t> words{};       ///< level after level, row 0 at the bottom
-  std::vector<std::uint32_t> level_table{}; ///< width, height, first word: three words a level
+  double scale = 1;     ///< value of the code 1; of slopes a power of two
+  bool encoded = false; ///< texels are normals, to become slopes after they are filtered
+  int level_count = 0;  ///< at least 1
+  UninitialisedVector<std::uint32_t> words{}; ///< level after level, row 0 at the bottom
+  std::vector<std::uint32_t> level_table{};   ///< width, height, first word: three words a level
 
   [[nodiscard]] int width(int level = 0) const { return static_cast<int>(level_table[3 * level]); }
   [[nodiscard]] int height(int level = 0) const { return static_cast<int>(level_table[3 * level + 1]); }

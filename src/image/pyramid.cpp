@@ -12,12 +12,13 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace surfgrad::image {
 namespace {
 
-using Texels = std::vector<float>;
+using Texels = UninitialisedVector<float>;
 
 /// Texels along one axis over whose footprint one of the next lower level averages. Sides are halved and
 /// rounded down, so that it is two texels long, or up to three from an odd side.
@@ -42,7 +43,8 @@ std::vector<Footprint> footprints(int from, int to) {
   return result;
 }
 
-/// Average over a footprint, in double: a sum of up to nine terms stays exact to float rounding.
+/// Average over a footprint, in double: a sum of up to nine terms stays exact to float rounding. The source
+/// begins with the footprint's first row.
 void halve_row(const float* source, std::size_t row_floats, const Footprint& row,
                const std::vector<Footprint>& columns, std::size_t components, float* result) {
   for (const Footprint& column : columns)
@@ -51,7 +53,7 @@ void halve_row(const float* source, std::size_t row_floats, const Footprint& row
       for (std::size_t j = 0; j < row.count; ++j)
         for (std::size_t i = 0; i < column.count; ++i)
           sum += row.weights[j] * column.weights[i] *
-                 source[(row.first + j) * row_floats + (column.first + i) * components + c];
+                 source[j * row_floats + (column.first + i) * components + c];
       *result++ = static_cast<float>(sum);
     }
 }
@@ -68,27 +70,6 @@ void halve_even_row(const float* below, const float* above, std::size_t count, f
     }
 }
 
-Texels halve(const Texels& source, int width, int height, int to_width, int to_height, int components) {
-  const auto n = static_cast<std::size_t>(components);
-  const std::size_t row_floats = static_cast<std::size_t>(width) * n;
-  const std::size_t to_floats = static_cast<std::size_t>(to_width) * n;
-  Texels result(to_floats * static_cast<std::size_t>(to_height));
-  if (width == 2 * to_width && height == 2 * to_height) {
-    constexpr std::array even_rows{halve_even_row<1>, halve_even_row<2>, halve_even_row<3>};
-    in_parallel(static_cast<std::size_t>(to_height), to_floats, [&](std::size_t y) {
-      const float* below = source.data() + 2 * y * row_floats;
-      even_rows[n - 1](below, below + row_floats, static_cast<std::size_t>(to_width), &result[y * to_floats]);
-    });
-    return result;
-  }
-  const auto columns = footprints(width, to_width);
-  const auto rows = footprints(height, to_height);
-  in_parallel(static_cast<std::size_t>(to_height), to_floats, [&](std::size_t y) {
-    halve_row(source.data(), row_floats, rows[y], columns, n, &result[y * to_floats]);
-  });
-  return result;
-}
-
 /// Nearest integer, halves away from zero: a slope and its negative have opposite codes.
 std::int32_t rounded(double v) { return static_cast<std::int32_t>(v + (v < 0 ? -0.5 : 0.5)); }
 
@@ -99,41 +80,100 @@ void store_row(const float* texels, std::size_t width, std::size_t components, c
   const auto code_of = [&](std::size_t i) {
     return static_cast<std::uint32_t>(rounded(texels[i] * inverse));
   };
-  for (std::size_t x = 0; x <= width; ++x) {
-    const std::size_t texel = x < width ? x : 0;
-    switch (code.format) {
-    case TexelFormat::floats:
-      for (std::size_t c = 0; c < components; ++c)
-        *words++ = std::bit_cast<std::uint32_t>(texels[texel * components + c]);
-      break;
-    case TexelFormat::slope16:
-      *words++ = (code_of(2 * texel) & 0xffffu) | code_of(2 * texel + 1) << 16;
-      break;
-    case TexelFormat::unorm16:
-      *words++ = code_of(texel) | code_of(texel + 1 < width ? texel + 1 : 0) << 16;
-      break;
-    }
+  switch (code.format) {
+  case TexelFormat::floats:
+    std::memcpy(words, texels, width * components * sizeof(float));
+    std::memcpy(words + width * components, texels, components * sizeof(float));
+    break;
+  case TexelFormat::slope16:
+    for (std::size_t x = 0; x < width; ++x) words[x] = (code_of(2 * x) & 0xffffu) | code_of(2 * x + 1) << 16;
+    words[width] = words[0];
+    break;
+  case TexelFormat::unorm16:
+    for (std::size_t x = 0; x < width; ++x) words[x] = code_of(x) | code_of(x + 1 < width ? x + 1 : 0) << 16;
+    words[width] = code_of(0) | code_of(width > 1 ? 1 : 0) << 16;
+    break;
   }
 }
 
-void store_level(const Texels& texels, Map& map, int level) {
-  const auto width = static_cast<std::size_t>(map.width(level));
-  const int height = map.height(level);
-  const auto components = static_cast<std::size_t>(map.components);
-  in_parallel(static_cast<std::size_t>(height) + 1, width, [&](std::size_t y) {
-    const std::size_t row = y < static_cast<std::size_t>(height) ? y : 0;
-    store_row(texels.data() + row * width * components, width, components, {map.format, map.scale},
-              map.words.data() + map.word(level, 0, static_cast<int>(y)));
-  });
+/// The texels of a level: those of level 0 are made when they are asked for, a band of rows at a time.
+struct Level {
+  int width;
+  int height;
+  std::size_t row_floats;
+  const TexelRows* rows; ///< null for those that lie in `texels`
+  Texels texels{};
+
+  /// The first of these rows, which follow each other.
+  const float* band(std::size_t first, std::size_t end, Texels& scratch) const {
+    if (rows == nullptr) return texels.data() + first * row_floats;
+    scratch.resize((end - first) * row_floats);
+    for (std::size_t y = first; y < end; ++y)
+      (*rows)(static_cast<int>(y), scratch.data() + (y - first) * row_floats);
+    return scratch.data();
+  }
+};
+
+/// A row as words, and the first one also as the copy above the last.
+void store(const float* texels, std::size_t y, const Level& level, Map& map) {
+  const int index = map.level_count - 1;
+  const auto store_at = [&](int row) {
+    store_row(texels, static_cast<std::size_t>(level.width), static_cast<std::size_t>(map.components),
+              {map.format, map.scale}, map.words.data() + map.word(index, 0, row));
+  };
+  store_at(static_cast<int>(y));
+  if (y == 0) store_at(level.height);
 }
 
-/// Largest of f over all values; the order in which they are met does not matter.
+/// Stores a level and returns the next, in one pass over its texels.
+Level store_and_halve(const Level& level, Map& map) {
+  const auto n = static_cast<std::size_t>(map.components);
+  Level next{std::max(1, level.width / 2), std::max(1, level.height / 2), 0, nullptr};
+  next.row_floats = static_cast<std::size_t>(next.width) * n;
+  next.texels.resize(next.row_floats * static_cast<std::size_t>(next.height));
+  const bool even = level.width == 2 * next.width && level.height == 2 * next.height;
+  const auto columns = even ? std::vector<Footprint>{} : footprints(level.width, next.width);
+  const auto rows = footprints(level.height, next.height);
+  constexpr std::array even_rows{halve_even_row<1>, halve_even_row<2>, halve_even_row<3>};
+  // A band of about so many floats stays in the second-level cache between being made, stored and halved.
+  constexpr std::size_t band_floats = 32768;
+  const std::size_t band = std::max<std::size_t>(1, band_floats / (2 * level.row_floats));
+  const std::size_t bands = (rows.size() + band - 1) / band;
+  in_parallel(bands, band_floats, [&](std::size_t b) {
+    const std::size_t first_row = b * band;
+    const std::size_t end_row = std::min(rows.size(), first_row + band);
+    // Footprints of an odd side share rows; of a band's rows those are its own that start below the next's.
+    const std::size_t first = rows[first_row].first;
+    const std::size_t end = rows[end_row - 1].first + rows[end_row - 1].count;
+    const std::size_t own_end = end_row < rows.size() ? rows[end_row].first : end;
+    thread_local Texels scratch;
+    const float* texels = level.band(first, end, scratch);
+    for (std::size_t y = first; y < own_end; ++y)
+      store(texels + (y - first) * level.row_floats, y, level, map);
+    for (std::size_t y = first_row; y < end_row; ++y) {
+      const float* below = texels + (rows[y].first - first) * level.row_floats;
+      float* result = next.texels.data() + y * next.row_floats;
+      if (even)
+        even_rows[n - 1](below, below + level.row_floats, static_cast<std::size_t>(next.width), result);
+      else
+        halve_row(below, level.row_floats, rows[y], columns, n, result);
+    }
+  });
+  return next;
+}
+
+/// Largest of f over all texels; the order in which they are met does not matter.
 template <class F>
-double largest(const std::vector<float>& values, const F& f) {
+double largest(const TexelRows& rows, int width, int height, int components, const F& f) {
+  const std::size_t floats = static_cast<std::size_t>(width) * static_cast<std::size_t>(components);
   return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, values.size(), 32768), 0.0,
-      [&](const tbb::blocked_range<std::size_t>& block, double most) {
-        for (std::size_t i = block.begin(); i != block.end(); ++i) most = std::max(most, f(values[i]));
+      tbb::blocked_range<int>(0, height, std::max<std::size_t>(1, 32768 / floats)), 0.0,
+      [&](const tbb::blocked_range<int>& block, double most) {
+        Texels row(floats);
+        for (int y = block.begin(); y != block.end(); ++y) {
+          rows(y, row.data());
+          for (const float v : row) most = std::max(most, f(v));
+        }
         return most;
       },
       [](double a, double b) { return std::max(a, b); });
@@ -164,8 +204,8 @@ double Map::value(int level, int x, int y, int component) const {
   return std::bit_cast<float>(words[at + static_cast<std::size_t>(component)]);
 }
 
-TexelCode code_for_slopes(const std::vector<float>& slopes) {
-  const double steepest = largest(slopes, [](float d) { return std::abs(double{d}); });
+TexelCode code_for_slopes(const TexelRows& slopes, int width, int height) {
+  const double steepest = largest(slopes, width, height, 2, [](float d) { return std::abs(double{d}); });
   constexpr double most_code = 32767;
   constexpr double coarsest = 0x1p-13; // rounds by half of it, 2^-14
   if (!(steepest <= most_code * coarsest)) return {};
@@ -175,9 +215,9 @@ TexelCode code_for_slopes(const std::vector<float>& slopes) {
   return {TexelFormat::slope16, scale};
 }
 
-TexelCode code_for_scalars(const std::vector<float>& values) {
+TexelCode code_for_scalars(const TexelRows& values, int width, int height) {
   // A code over 65535, rounded to float, is off by at most 2^-25 * 65535 = 0.002 codes.
-  const double off = largest(values, [](float v) {
+  const double off = largest(values, width, height, 1, [](float v) {
     const double code = 65535.0 * v;
     const bool within = v >= 0 && v <= 1;
     return within ? std::abs(code - rounded(code)) : 1.0;
@@ -185,7 +225,14 @@ TexelCode code_for_scalars(const std::vector<float>& values) {
   return off < 0.004 ? TexelCode{TexelFormat::unorm16, 1.0 / 65535} : TexelCode{};
 }
 
-Map with_pyramid(Texels texels, int width, int height, int components, TexelCode code) {
+TexelRows rows_of(const std::vector<float>& texels, int width, int components) {
+  const std::size_t floats = static_cast<std::size_t>(width) * static_cast<std::size_t>(components);
+  return [&texels, floats](int y, float* row) {
+    std::copy_n(texels.data() + static_cast<std::size_t>(y) * floats, floats, row);
+  };
+}
+
+Map with_pyramid(const TexelRows& rows, int width, int height, int components, TexelCode code) {
   assert(std::max(width, height) <= map_most_texels);
   Map map;
   map.components = components;
@@ -194,18 +241,20 @@ Map with_pyramid(Texels texels, int width, int height, int components, TexelCode
   const std::int64_t words = words_of_map(width, height, map.texel_words());
   assert(words <= std::numeric_limits<std::int32_t>::max() - words_read_ahead);
   map.words.resize(static_cast<std::size_t>(words + words_read_ahead));
+  std::fill(map.words.end() - words_read_ahead, map.words.end(), 0);
+  Level level{width, height, static_cast<std::size_t>(width) * static_cast<std::size_t>(components), &rows};
   for (std::int64_t first = 0;;) {
     map.level_table.insert(map.level_table.end(),
-                           {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                           {static_cast<std::uint32_t>(level.width), static_cast<std::uint32_t>(level.height),
                             static_cast<std::uint32_t>(first)});
-    store_level(texels, map, map.level_count++);
-    if (width == 1 && height == 1) return map;
-    first += (std::int64_t{width} + 1) * (std::int64_t{height} + 1) * map.texel_words();
-    const int to_width = std::max(1, width / 2);
-    const int to_height = std::max(1, height / 2);
-    texels = halve(texels, width, height, to_width, to_height, components);
-    width = to_width;
-    height = to_height;
+    ++map.level_count;
+    if (level.width == 1 && level.height == 1) {
+      Texels scratch;
+      store(level.band(0, 1, scratch), 0, level, map);
+      return map;
+    }
+    first += (std::int64_t{level.width} + 1) * (std::int64_t{level.height} + 1) * map.texel_words();
+    level = store_and_halve(level, map);
   }
 }
 

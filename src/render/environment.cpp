@@ -201,7 +201,7 @@ image::CubeMap blurred_cube(const Sky& sky, const Lobe& lobe) {
   });
   std::array<image::Map, 6> faces;
   for (std::size_t i = 0; i < faces.size(); ++i)
-    faces[i] = image::with_pyramid(std::move(light[i]), blurred_size, blurred_size, 3);
+    faces[i] = image::with_pyramid(image::rows_of(light[i], blurred_size, 3), blurred_size, blurred_size, 3);
   return image::cube_of_faces(faces);
 }
 

@@ -7,9 +7,7 @@
 #include "stage/stage.hpp"
 #include "stage/tile_composer.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,9 +15,6 @@
 
 namespace surfgrad::render {
 namespace {
-
-/// Samples along a side of a tile: it fits the first caches with all that is kept of a sample.
-constexpr int tile_side = 32;
 
 /// Dark and neutral, a little lighter towards the top: bumps are judged against it.
 vec3<float> background(double height) {
@@ -64,7 +59,7 @@ class Bands {
   Bands(const stage::Stage& stage, const raster::Projection& projection, const Options& options,
         const Shading* shading)
       : options_(options), shading_(shading), side_(samples_along_a_side(options)),
-        pixels_(std::max(1, tile_side / side_)),
+        pixels_(std::max(1, stage::tile_side / side_)),
         composer_(stage, projection, options.width * side_, options.height * side_, pixels_ * side_,
                   pixels_ * side_, outputs_of(options.aov, options.aov == Aov::uv ? stage.slot_of(0) : 0)),
         values_([this] { return Values(static_cast<std::size_t>(pixels_ * side_ * pixels_ * side_)); }) {}
@@ -74,11 +69,7 @@ class Bands {
   void make(int row, image::Image& band) {
     const int height = composer_.grid().tile(0, row).height / side_;
     stage::reshape(band, options_.width, height, 3);
-    tbb::parallel_for(tbb::blocked_range<int>(0, composer_.grid().columns(), 8),
-                      [&](const tbb::blocked_range<int>& columns) {
-                        for (int column = columns.begin(); column < columns.end(); ++column)
-                          draw(composer_.compose(column, row), band);
-                      });
+    composer_.compose_row(row, [&](const stage::ComposedTile& tile) { draw(tile, band); });
   }
 
   [[nodiscard]] Counts counts() const { return {covered_, degenerate_}; }

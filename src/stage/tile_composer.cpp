@@ -2,7 +2,9 @@
 
 #include "simd/lane.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
@@ -193,6 +195,15 @@ const ComposedTile& TileComposer::compose(int column, int row) {
   s.composed.pixel = s.pixel.data();
   s.composed.runs = s.runs;
   return s.composed;
+}
+
+void TileComposer::compose_row(int row, const std::function<void(const ComposedTile&)>& take) {
+  constexpr int columns_each = 8; // a few hundred microseconds of work
+  tbb::parallel_for(tbb::blocked_range<int>(0, grid_.columns(), columns_each),
+                    [&](const tbb::blocked_range<int>& columns) {
+                      for (int column = columns.begin(); column < columns.end(); ++column)
+                        take(compose(column, row));
+                    });
 }
 
 } // namespace surfgrad::stage

@@ -4,6 +4,7 @@
 #include "raster/tile_scan.hpp"
 #include "stage/stage.hpp"
 
+#include <functional>
 #include <memory>
 
 namespace surfgrad::stage {
@@ -37,17 +38,24 @@ struct ComposedTile {
   std::span<const Run> runs{};
 };
 
+/// Pixels along a side of a tile that jobs ask for: it fits the first caches with all that is kept of a
+/// pixel.
+inline constexpr int tile_side = 32;
+
 /// Composes what a raster shows, tile by tile, on any number of threads. Memory is a few tiles' a thread.
 class TileComposer {
  public:
   /// stage, projection  must outlive the composer
-  /// tile_width, tile_height  in pixels; a few hundred to a few thousand pixels a tile fit the caches
+  /// tile_width, tile_height  in pixels, about tile_side
   TileComposer(const Stage& stage, const raster::Projection& projection, int width, int height,
                int tile_width, int tile_height, const Outputs& outputs);
   ~TileComposer();
 
   [[nodiscard]] const raster::TileGrid& grid() const { return grid_; }
   [[nodiscard]] const ComposedTile& compose(int column, int row);
+
+  /// Composes a row of tiles in parallel and hands each to `take` on the thread that composed it.
+  void compose_row(int row, const std::function<void(const ComposedTile&)>& take);
 
  private:
   struct Scratch;

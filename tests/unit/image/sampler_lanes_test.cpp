@@ -77,7 +77,7 @@ TEST(SamplerLanes, KeepTheSignOfAZeroWhateverOthersBlend) {
   // A lane between no levels must not meet another lane's arithmetic: -0 + 0 is 0.
   std::vector<float> slopes(2 * 16, -1.0f);
   slopes[0] = slopes[1] = -0.0f;
-  const Map map = with_pyramid(slopes, 4, 4, 2);
+  const Map map = with_pyramid(rows_of(slopes, 4, 2), 4, 4, 2);
   EmulatedFloat lod(0.5f);
   lod.lane[2] = 0;
   const vec2<EmulatedFloat> st{EmulatedFloat(0.125f), EmulatedFloat(0.125f)};

@@ -38,11 +38,12 @@ TEST(TexelFormat, OfSlopesRoundsEachTexelOnceByAtMostHalfACode) {
     for (const double steepest : {0.001, 0.3, 1.0, 1.999, 3.9}) {
       std::vector<float> slopes(static_cast<std::size_t>(2 * width * height));
       for (float& d : slopes) d = static_cast<float>(random.uniform(-steepest, steepest));
-      const TexelCode code = code_for_slopes(slopes);
+      const TexelRows rows = rows_of(slopes, width, 2);
+      const TexelCode code = code_for_slopes(rows, width, height);
       ASSERT_EQ(code.format, TexelFormat::slope16);
       EXPECT_LE(code.scale, 0x1p-13);
-      const Map rounded = with_pyramid(slopes, width, height, 2, code);
-      const Map exact = with_pyramid(slopes, width, height, 2);
+      const Map rounded = with_pyramid(rows, width, height, 2, code);
+      const Map exact = with_pyramid(rows, width, height, 2);
       for (int level = 0; level < exact.level_count; ++level)
         for (int y = 0; y < exact.height(level); ++y)
           for (int x = 0; x < exact.width(level); ++x)
@@ -52,22 +53,27 @@ TEST(TexelFormat, OfSlopesRoundsEachTexelOnceByAtMostHalfACode) {
     }
 }
 
+TexelCode code_of(const std::vector<float>& one_texel) {
+  return code_for_slopes(rows_of(one_texel, 1, 2), 1, 1);
+}
+
 TEST(TexelFormat, OfSlopesTakesTheFinestPowerOfTwoThatReaches) {
   for (const float steepest : {1e-30f, 0.3f, 0.9999f, 1.0f, 3.99f}) {
-    const double scale = code_for_slopes({0.0f, -steepest}).scale;
+    const double scale = code_of({0.0f, -steepest}).scale;
     EXPECT_EQ(std::exp2(std::round(std::log2(scale))), scale);
     EXPECT_LE(steepest, 32767 * scale);
     EXPECT_TRUE(scale == 0x1p-40 || steepest > 32767 * scale / 2);
   }
-  EXPECT_EQ(code_for_slopes({4.0f, 0.0f}).format, TexelFormat::floats);
-  EXPECT_EQ(code_for_slopes({0.0f, 0.0f}).format, TexelFormat::slope16);
+  EXPECT_EQ(code_of({4.0f, 0.0f}).format, TexelFormat::floats);
+  EXPECT_EQ(code_of({0.0f, 0.0f}).format, TexelFormat::slope16);
 }
 
 TEST(TexelFormat, OfSlopesHoldsEveryCodeOfEitherSign) {
   std::vector<float> slopes;
   for (int code = -32767; code <= 32767; ++code) slopes.push_back(static_cast<float>(code) / 32768);
   slopes.push_back(0);
-  const Map map = with_pyramid(slopes, 32768, 1, 2, code_for_slopes(slopes));
+  const TexelRows rows = rows_of(slopes, 32768, 2);
+  const Map map = with_pyramid(rows, 32768, 1, 2, code_for_slopes(rows, 32768, 1));
   ASSERT_EQ(map.scale, 1.0 / 32768);
   for (int x = 0; x < 32768; ++x)
     for (int c = 0; c < 2; ++c) {
