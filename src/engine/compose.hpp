@@ -39,14 +39,6 @@ void with_kind(const Layer& layer, const Function& f) {
   (std::make_index_sequence<std::variant_size_v<Layer>>());
 }
 
-/// The first pass of a point: its frame from its fragment.
-///
-/// back_faces  how a fragment that shows its back is treated
-template <LaneScalar T>
-[[nodiscard]] Frame<T> first_frame(const raster::Fragment<T>& fragment, BackFaces back_faces) {
-  return make_frame(fragment.normal, fragment.dp_dx, fragment.dp_dy, fragment.front_facing, back_faces);
-}
-
 /// Runs a program on a point in its first pass and gives the composed normal.
 ///
 /// degenerate  (out) where a normal or a frame that a layer needed did not exist
@@ -64,7 +56,8 @@ template <LaneScalar T>
 template <LaneScalar T>
 [[nodiscard]] Composition<T> compose(const Program& program, const raster::Fragment<T>& fragment,
                                      BackFaces back_faces, const Placement& placement) {
-  Point<T> point{fragment, first_frame(fragment, back_faces), true, T(value_t<T>(1)), placement};
+  raster::Fragment<T> own = fragment;
+  Point<T> point(own, back_faces, placement);
   const vec3<T> base = point.frame.normal;
   Composition<T> c{};
   c.base_normal = base;

@@ -12,11 +12,21 @@ namespace surfgrad::engine {
 /// after it.
 template <class T>
 struct Point {
-  raster::Fragment<T> fragment; ///< parallax moves it
-  Frame<T> frame;               ///< of the current pass
-  bool first_pass;              ///< uniform: no resolve came before
-  T sunlight;                   ///< share of the sun that reaches it, in [0, 1]
+  raster::Fragment<T>& fragment; ///< the caller's, too large to be moved; parallax changes it
+  Frame<T> frame;                ///< of the current pass
+  bool first_pass = true;        ///< uniform: no resolve came before
+  T sunlight = T(value_t<T>(1)); ///< share of the sun that reaches it, in [0, 1]
   const Placement& placement;
+
+  Point(raster::Fragment<T>& f, const Frame<T>& of_the_pass, const Placement& where)
+      : fragment(f), frame(of_the_pass), placement(where) {}
+
+  /// In its first pass.
+  ///
+  /// back_faces  how a fragment that shows its back is treated
+  Point(raster::Fragment<T>& f, BackFaces back_faces, const Placement& where)
+      : fragment(f), frame(make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, back_faces)),
+        placement(where) {}
 };
 
 /// Matrices and vectors of a placement, in every lane.

@@ -32,13 +32,9 @@ void compose_pack(const TileWork& work, const std::int32_t* which, const float* 
   const TileWork::Results& results = work.results;
   const T zero = T(0.0f);
   const T one = T(1.0f);
-  Point<T> point{raster::interpolate<T>(work.setups, which, work.wanted, {load<T>(x), load<T>(y)}),
-                 {},
-                 true,
-                 one,
-                 *work.placement};
-  point.frame = first_frame(point.fragment, work.back_faces);
-  const raster::Fragment<T>& fragment = point.fragment;
+  raster::Fragment<T> fragment =
+      raster::interpolate<T>(work.setups, which, work.wanted, {load<T>(x), load<T>(y)});
+  Point<T> point(fragment, work.back_faces, *work.placement);
   const vec3<T> base = point.frame.normal;
   put(base, results.base_normal, i);
   put(fragment.to_viewer, results.to_viewer, i);

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace surfgrad::image {
 namespace {
@@ -162,21 +163,42 @@ Level store_and_halve(const Level& level, Map& map) {
   return next;
 }
 
-/// Largest of f over all texels; the order in which they are met does not matter.
+/// Largest of what f(row of floats, their number) gives for the rows; in which order they are met does not
+/// matter.
 template <class F>
-double largest(const TexelRows& rows, int width, int height, int components, const F& f) {
+auto largest(const TexelRows& rows, int width, int height, int components, const F& f) {
   const std::size_t floats = static_cast<std::size_t>(width) * static_cast<std::size_t>(components);
+  using Value = decltype(f(std::declval<const float*>(), floats));
   return tbb::parallel_reduce(
-      tbb::blocked_range<int>(0, height, std::max<std::size_t>(1, 32768 / floats)), 0.0,
-      [&](const tbb::blocked_range<int>& block, double most) {
+      tbb::blocked_range<int>(0, height, std::max<std::size_t>(1, 32768 / floats)), Value{0},
+      [&](const tbb::blocked_range<int>& block, Value most) {
         Texels row(floats);
         for (int y = block.begin(); y != block.end(); ++y) {
           rows(y, row.data());
-          for (const float v : row) most = std::max(most, f(v));
+          most = std::max(most, f(row.data(), floats));
         }
         return most;
       },
-      [](double a, double b) { return std::max(a, b); });
+      [](Value a, Value b) { return std::max(a, b); });
+}
+
+/// The bits of a float without its sign, which order magnitudes; integers are compared many at a time.
+std::int32_t steepest_bits(const float* slopes, std::size_t count) {
+  std::int32_t most = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    most = std::max(most, std::bit_cast<std::int32_t>(slopes[i]) & std::numeric_limits<std::int32_t>::max());
+  return most;
+}
+
+/// How far values are from codes of 16 bits, in codes; 1 for those beyond [0, 1].
+double farthest_from_codes(const float* values, std::size_t count) {
+  double most = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double code = 65535.0 * values[i];
+    const bool within = values[i] >= 0 && values[i] <= 1;
+    most = std::max(most, within ? std::abs(code - rounded(code)) : 1.0);
+  }
+  return most;
 }
 
 } // namespace
@@ -205,7 +227,7 @@ double Map::value(int level, int x, int y, int component) const {
 }
 
 TexelCode code_for_slopes(const TexelRows& slopes, int width, int height) {
-  const double steepest = largest(slopes, width, height, 2, [](float d) { return std::abs(double{d}); });
+  const double steepest = std::bit_cast<float>(largest(slopes, width, height, 2, steepest_bits));
   constexpr double most_code = 32767;
   constexpr double coarsest = 0x1p-13; // rounds by half of it, 2^-14
   if (!(steepest <= most_code * coarsest)) return {};
@@ -217,11 +239,7 @@ TexelCode code_for_slopes(const TexelRows& slopes, int width, int height) {
 
 TexelCode code_for_scalars(const TexelRows& values, int width, int height) {
   // A code over 65535, rounded to float, is off by at most 2^-25 * 65535 = 0.002 codes.
-  const double off = largest(values, width, height, 1, [](float v) {
-    const double code = 65535.0 * v;
-    const bool within = v >= 0 && v <= 1;
-    return within ? std::abs(code - rounded(code)) : 1.0;
-  });
+  const double off = largest(values, width, height, 1, farthest_from_codes);
   return off < 0.004 ? TexelCode{TexelFormat::unorm16, 1.0 / 65535} : TexelCode{};
 }
 

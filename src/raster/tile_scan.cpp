@@ -40,9 +40,10 @@ struct Span {
   }
 };
 
-/// Calls visit(index in the tile, x, y of its centre) for the pixels of a tile that a triangle covers.
+/// Calls visit(index in the tile of the first, how many, x and y of its centre) for the pixels of a tile that
+/// a triangle covers, neighbours in a row together.
 template <class Visit>
-void for_each_covered_pixel(const Tile& tile, const TrianglePlanes& planes, const Visit& visit) {
+void for_each_covered_run(const Tile& tile, const TrianglePlanes& planes, const Visit& visit) {
   const TrianglePlanes::Box box = planes.box();
   const PixelRange columns(box.x_low, box.x_high, tile.x, tile.width);
   const PixelRange rows(box.y_low, box.y_high, tile.y, tile.height);
@@ -66,10 +67,11 @@ void for_each_covered_pixel(const Tile& tile, const TrianglePlanes& planes, cons
     const int certain_end = std::clamp(certain.end, certain_first, std::max(end, certain_first));
     const auto visit_if_covered = [&](int from, int to) {
       for (int x = from; x < to; ++x)
-        if (planes.covers(x_first + x, y)) visit(row * tile.width + x, x_first + x, y);
+        if (planes.covers(x_first + x, y)) visit(row * tile.width + x, 1, x_first + x, y);
     };
     visit_if_covered(possible.first, certain_first);
-    for (int x = certain_first; x < certain_end; ++x) visit(row * tile.width + x, x_first + x, y);
+    if (certain_first < certain_end)
+      visit(row * tile.width + certain_first, certain_end - certain_first, x_first + certain_first, y);
     visit_if_covered(certain_end, end);
   }
 }
@@ -125,23 +127,32 @@ void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& proj
     bool seen = false;
     if (projection.has_depth()) {
       const double near = projection.near();
-      for_each_covered_pixel(tile, planes, [&](int i, double x, double y) {
-        const double inverse_w = planes.inverse_w(x, y);
-        double& nearest = nearest_[static_cast<std::size_t>(i)];
-        int& owner = owners_[static_cast<std::size_t>(i)];
-        // Without branches: depths are in no order.
-        const bool nearer = (inverse_w > nearest) & !(inverse_w * near > 1);
-        nearest = nearer ? inverse_w : nearest;
-        owner = nearer ? own : owner;
-        seen = seen | nearer;
+      for_each_covered_run(tile, planes, [&, own, near](int first, int count, double x, double y) {
+        double* nearest = &nearest_[static_cast<std::size_t>(first)];
+        int* owner = &owners_[static_cast<std::size_t>(first)];
+        for (int i = 0; i < count; ++i) {
+          const double inverse_w = planes.inverse_w(x + i, y);
+          // Without branches: depths are in no order.
+          const bool nearer = (inverse_w > nearest[i]) & !(inverse_w * near > 1);
+          nearest[i] = nearer ? inverse_w : nearest[i];
+          owner[i] = nearer ? own : owner[i];
+          seen = seen | nearer;
+        }
       });
     } else {
-      for_each_covered_pixel(tile, planes, [&](int i, double, double) {
-        unsigned char& covered = covered_[static_cast<std::size_t>(i)];
-        if (covered == 0) owners_[static_cast<std::size_t>(i)] = own;
-        seen = seen | (covered == 0);
-        if (covered == 1) ++overlapping_;
-        if (covered < 2) ++covered;
+      for_each_covered_run(tile, planes, [&, own](int first, int count, double, double) {
+        int* covered = &covered_[static_cast<std::size_t>(first)];
+        int* owner = &owners_[static_cast<std::size_t>(first)];
+        int uncovered = 0;
+        int covered_once = 0;
+        for (int i = 0; i < count; ++i) {
+          uncovered += covered[i] == 0 ? 1 : 0;
+          covered_once += covered[i] == 1 ? 1 : 0;
+          owner[i] = covered[i] == 0 ? own : owner[i];
+          covered[i] = std::min(covered[i] + 1, 2);
+        }
+        seen = seen | (uncovered > 0);
+        overlapping_ += covered_once;
       });
     }
     if (seen) shown_.push_back({id, planes, nothing, 0});

@@ -42,7 +42,7 @@ class TileScan {
 
   std::vector<int> owners_;
   std::vector<double> nearest_; ///< 1 / w: 0 is infinitely far
-  std::vector<unsigned char> covered_;
+  std::vector<int> covered_;    ///< by how many triangles, at most 2; as wide as owners_, to go abreast
   std::vector<Shown> shown_;
   std::vector<int> renumbered_;
   int overlapping_ = 0;

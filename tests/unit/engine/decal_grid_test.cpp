@@ -183,9 +183,8 @@ std::span<const std::uint32_t> near(const Decals& decals, const Point<T>& point)
 
 /// Applied by way of the grid and by trying every decal: the same bits.
 template <class T>
-bool expect_same(const Decals& decals, const Placement& placement, const raster::Fragment<T>& f) {
-  Point<T> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, BackFaces::same), true, T(1),
-                 placement};
+bool expect_same(const Decals& decals, const Placement& placement, raster::Fragment<T> f) {
+  Point<T> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, BackFaces::same), placement};
   vec3<T> found{T(0.25), T(-0.5), T(0.125)};
   vec3<T> tried = found;
   bool degenerate = false;
@@ -334,17 +333,16 @@ TEST_F(DecalLists, OfAPackAreThoseOfItsLanes) {
             lanes.push_back(fragment_at<float>(
                 {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}, n));
           }
-          const raster::Fragment<EmulatedFloat> f = pack_of(lanes);
-          Point<EmulatedFloat> point{f,
-                                     make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, BackFaces::same),
-                                     true, EmulatedFloat(1.0f), placement};
+          raster::Fragment<EmulatedFloat> f = pack_of(lanes);
+          Point<EmulatedFloat> point{
+              f, make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, BackFaces::same), placement};
           vec3<EmulatedFloat> sum{EmulatedFloat(0.25f), EmulatedFloat(-0.5f), EmulatedFloat(0.125f)};
           simd::EmulatedMask degenerate{};
           apply(decals, point, sum, degenerate);
           for (int i = 0; i < simd::emulated_width; ++i) {
-            const raster::Fragment<float>& one = lanes[static_cast<std::size_t>(i)];
-            Point<float> alone{one, make_frame(one.normal, one.dp_dx, one.dp_dy, true, BackFaces::same), true,
-                               1, placement};
+            raster::Fragment<float>& one = lanes[static_cast<std::size_t>(i)];
+            Point<float> alone{one, make_frame(one.normal, one.dp_dx, one.dp_dy, true, BackFaces::same),
+                               placement};
             vec3<float> expected{0.25f, -0.5f, 0.125f};
             bool odd = false;
             std::vector<std::uint32_t> every(decals.decals.size());
@@ -378,8 +376,8 @@ TEST_F(DecalLists, CostWhatCoversTheFragment) {
   layer.instances = {layer.instances[505]};
   const Decals one = compiled(layer);
   const Placement placement = test::placed(test::identity);
-  const auto f = fragment_at<double>({0.1, 5.1, 0.1}, {0, 1, 0});
-  const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), true, 1, placement};
+  auto f = fragment_at<double>({0.1, 5.1, 0.1}, {0, 1, 0});
+  const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), placement};
   ASSERT_EQ(near(one, point).size(), 1u);
   ASSERT_EQ(near(thousand, point).size(), 1u);
   EXPECT_EQ(near(thousand, point)[0], 505u);
@@ -391,8 +389,8 @@ TEST_F(DecalLists, AreNotReachedByPositionsThatAreNoNumbers) {
   const Placement placement = test::placed(test::identity);
   for (const double no :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    const auto f = fragment_at<double>({0, no, 0}, {0, 1, 0});
-    const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), true, 1, placement};
+    auto f = fragment_at<double>({0, no, 0}, {0, 1, 0});
+    const Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy), placement};
     EXPECT_TRUE(near(decals, point).empty());
   }
 }

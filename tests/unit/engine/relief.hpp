@@ -82,7 +82,8 @@ inline const Parallax& parallax_of(const Program& program) {
 
 inline Moved moved(const Program& program, const raster::Fragment<double>& f, const Placement& placement,
                    BackFaces mode = BackFaces::same) {
-  Point<double> point{f, make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, mode), true, 1, placement};
+  raster::Fragment<double> own = f;
+  Point<double> point{own, make_frame(f.normal, f.dp_dx, f.dp_dy, f.front_facing, mode), placement};
   vec3<double> sum{0, 0, 0};
   bool degenerate = false;
   apply(parallax_of(program), point, sum, degenerate);

@@ -347,8 +347,10 @@ TEST_F(Triplanars, DoNotReachLanesWherePlanesHaveNoWeight) {
     const Program program = lab.compile({triplanar_layer({"x", "other", "other"}, content)});
     const auto& layer = std::get<Triplanar>(program.layers[0]);
     const Placement placement = test::placed(test::identity);
-    Point<EmulatedFloat> pack{{}, {}, true, EmulatedFloat(1), placement};
-    Point<float> alone{{}, {}, true, 1, placement};
+    raster::Fragment<EmulatedFloat> in_lanes{};
+    raster::Fragment<float> fragment{};
+    Point<EmulatedFloat> pack{in_lanes, {}, placement};
+    Point<float> alone{fragment, {}, placement};
     pack.frame.normal = {EmulatedFloat(1), EmulatedFloat(-0.0F), EmulatedFloat(-0.0F)};
     alone.frame.normal = {1, -0.0F, -0.0F};
     for (int i = 1; i < simd::emulated_width; ++i) { // all lanes but the first see the other planes
