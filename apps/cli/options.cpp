@@ -3,8 +3,10 @@
 #include "diagnostic/error.hpp"
 #include "io/extension.hpp"
 #include "resources.hpp"
+#include "simd/isa.hpp"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <charconv>
@@ -149,6 +151,13 @@ image::Depth depth_for(const std::filesystem::path& output, const std::string& d
   if (depth == "half") return image::Depth::half;
   if (depth == "float") return image::Depth::float32;
   return io::lower_extension(output) == ".exr" ? image::Depth::float32 : integer_default;
+}
+
+void on_threads(int threads, const std::function<void()>& work) {
+  static_cast<void>(simd::current_isa());
+  const auto limit = static_cast<std::size_t>(threads > 0 ? threads : usable_cores());
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
+  work();
 }
 
 } // namespace surfgrad::cli

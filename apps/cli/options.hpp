@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -81,25 +82,8 @@ void check_output(const std::filesystem::path& output, image::Depth depth);
 /// Refuses the empty text that an unset shell variable leaves.
 [[nodiscard]] CLI::Validator not_empty();
 
-/// Runs work on the number of threads asked for; 0 is all that this process may use.
-template <class Work>
-void on_threads(int threads, const Work& work);
-
-} // namespace surfgrad::cli
-
-#include "resources.hpp"
-#include "simd/isa.hpp"
-
-#include <tbb/global_control.h>
-
-namespace surfgrad::cli {
-
-template <class Work>
-void on_threads(int threads, const Work& work) {
-  static_cast<void>(simd::current_isa()); // complains before the work about one that is not there
-  const auto limit = static_cast<std::size_t>(threads > 0 ? threads : usable_cores());
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
-  work();
-}
+/// Runs work on the number of threads asked for; 0 is all that this process may use. Complains before the
+/// work about an instruction set that is asked for and not there.
+void on_threads(int threads, const std::function<void()>& work);
 
 } // namespace surfgrad::cli
