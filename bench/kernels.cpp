@@ -6,6 +6,8 @@
 #include <surfgrad/gradient.hpp>
 #include <surfgrad/resolve.hpp>
 
+#include <hwy/cache_control.h>
+
 namespace surfgrad::bench::SURFGRAD_ISA_NAMESPACE {
 namespace {
 
@@ -15,15 +17,21 @@ using V3 = vec3<T>;
 
 #if SURFGRAD_ISA_IS_PLAIN
 void stream(T a, float* to) { store(a, to); }
+void fetch_ahead(const float*) {}
 #else
+HWY_INLINE void fetch_ahead(const float* from) { hwy::Prefetch(from); }
 HWY_INLINE void stream(T a, float* to) {
   hwy::HWY_NAMESPACE::Stream(a.v, simd::SURFGRAD_ISA_NAMESPACE::FloatTag(), to);
 }
 #endif
 
-template <class Pixel>
+/// ahead  packs whose loads from memory are asked for before they are needed; 0 leaves it to the processor,
+///        which follows streams by itself as long as it sees beyond the work on one pack
+template <int ahead, class Pixel>
 void for_each_pack(const Planes& planes, int begin, int end, Stores stores, const Pixel& pixel) {
   for (int i = begin; i < end; i += lane_count<T>) {
+    if (ahead > 0 && stores == Stores::streaming)
+      for (const float* plane : planes.in) fetch_ahead(plane + i + ahead * lane_count<T>);
     const V3 n = pixel([&](int plane) { return load<T>(planes.in[static_cast<std::size_t>(plane)] + i); });
     if (stores == Stores::streaming) {
       stream(n.x, planes.out[0] + i);
@@ -40,7 +48,7 @@ void for_each_pack(const Planes& planes, int begin, int end, Stores stores, cons
 } // namespace
 
 void compose_planes(const Planes& planes, int begin, int end, Stores stores) {
-  for_each_pack(planes, begin, end, stores, [](const auto& in) {
+  for_each_pack<8>(planes, begin, end, stores, [](const auto& in) {
     const auto frame = make_frame(V3{in(0), in(1), in(2)}, V3{in(3), in(4), in(5)}, V3{in(6), in(7), in(8)});
     const auto layer = [&](int k) {
       const int at = 9 + 4 * k;
@@ -53,7 +61,7 @@ void compose_planes(const Planes& planes, int begin, int end, Stores stores) {
 
 void sum_planes(const Planes& planes, int begin, int end, Stores stores) {
   static_assert(planes_in == 9 * planes_out);
-  for_each_pack(planes, begin, end, stores, [](const auto& in) {
+  for_each_pack<0>(planes, begin, end, stores, [](const auto& in) {
     const auto sum_of_nine = [&](int first) {
       T sum = in(first);
       for (int k = 1; k < 9; ++k) sum = sum + in(first + k);
