@@ -52,7 +52,7 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(SURFGRAD_FLAGS_avx512 ${SURFGRAD_FLAGS_avx2} -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   set(SURFGRAD_VECTOR_ISAS neon)
-  set(SURFGRAD_FLAGS_neon "")
+  set(SURFGRAD_FLAGS_neon -march=armv8-a+crypto) # Highway counts AES among it
 endif()
 
 # A pack handed to a function that is not inlined goes through memory: kernels are inlined whole.

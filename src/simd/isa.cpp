@@ -25,7 +25,7 @@ constexpr std::array named {
       Named{"sse4", Isa::sse4, HWY_SSE4}, Named{"avx2", Isa::avx2, HWY_AVX2},
       Named{"avx512", Isa::avx512, HWY_AVX3},
 #elif HWY_ARCH_ARM_A64 && !defined(SURFGRAD_NO_VECTOR_ISAS)
-      Named{"neon", Isa::neon, 0}, // every such processor has it
+      Named{"neon", Isa::neon, HWY_NEON},
 #endif
 };
 
