@@ -58,7 +58,7 @@ TEST(Limits, SizesThatNoPictureHasAreRefusedWithThoseThatAre) {
 
 TEST(Limits, PicturesBeyondTheMachinesMemoryAreRefusedBeforeTheWork) {
   // The limit is this program's own for as long as it takes to start the other.
-  if (SURFGRAD_SANITIZED) GTEST_SKIP() << "the sanitizers' own memory is more than the limit";
+  if (*SURFGRAD_SANITIZED) GTEST_SKIP() << "the sanitizers' own memory is more than the limit";
   const Folder folder;
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
