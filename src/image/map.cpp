@@ -70,7 +70,8 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
   const SlopeCode code{result.channels == NormalChannels::xy, green_up};
   std::vector<int> inward(static_cast<std::size_t>(image.height)); // of each row, however often it is made
   const TexelRows rows = [&](int y, float* row) {
-    inward[static_cast<std::size_t>(y)] = slope_row(image, y, code, row);
+    inward[static_cast<std::size_t>(y)] = slope_row({image.texels.data() + image.index(0, y), image.width,
+                                                     image.channels, code, !is_integer(image.depth), row});
   };
   result.map = with_pyramid(rows, image.width, image.height, 2, code_for(image, rows));
   result.inward_texels = std::accumulate(inward.begin(), inward.end(), std::int64_t{0});

@@ -146,10 +146,13 @@ void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& proj
         int uncovered = 0;
         int covered_once = 0;
         for (int i = 0; i < count; ++i) {
-          uncovered += covered[i] == 0 ? 1 : 0;
-          covered_once += covered[i] == 1 ? 1 : 0;
-          owner[i] = covered[i] == 0 ? own : owner[i];
-          covered[i] = std::min(covered[i] + 1, 2);
+          // Both values are read first and no library function is called: so it is vectorised.
+          const int before = covered[i];
+          const int owned_by = owner[i];
+          uncovered += before == 0 ? 1 : 0;
+          covered_once += before == 1 ? 1 : 0;
+          owner[i] = before == 0 ? own : owned_by;
+          covered[i] = before < 2 ? before + 1 : 2;
         }
         seen = seen | (uncovered > 0);
         overlapping_ += covered_once;
