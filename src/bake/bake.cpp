@@ -57,6 +57,9 @@ class Bands {
   /// What one thread works with: the codes of a tile's pixels, and what it has counted.
   struct Own {
     Counts counts;
+    std::vector<std::size_t> texel_of; ///< of the pixels of tiles of this size, from a tile's first on
+    int tile_width = 0;
+    int tile_height = 0;
     std::vector<float> codes = std::vector<float>(5 * length);
     static constexpr std::size_t length = stage::tile_side * stage::tile_side + most_lanes;
     float* array(std::size_t i) { return codes.data() + i * length; }
@@ -76,14 +79,24 @@ class Bands {
       encode_pixels(work);
     }
     const raster::Tile& tile = composed.tile;
-    if (composed.count < tile.width * tile.height)
+    if (own.tile_width != tile.width || own.tile_height != tile.height) {
+      own.tile_width = tile.width;
+      own.tile_height = tile.height;
+      own.texel_of.clear();
       for (int y = 0; y < tile.height; ++y)
-        for (int x = 0; x < tile.width; ++x) put(band, tile.x + x, y, 0.5f, 0.5f, 1.0f);
-    for (int i = 0; i < composed.count; ++i) {
-      const int pixel = composed.pixel[i];
-      put(band, tile.x + pixel % tile.width, pixel / tile.width, work.code.x[i], work.code.y[i],
-          work.code.z[i]);
+        for (int x = 0; x < tile.width; ++x) own.texel_of.push_back(band.index(x, y));
     }
+    const std::size_t first = band.index(tile.x, 0);
+    const auto put = [&](std::size_t pixel, float r, float g, float b) {
+      float* texel = &band.texels[first + own.texel_of[pixel]];
+      texel[0] = r;
+      texel[1] = g;
+      texel[2] = b;
+    };
+    if (composed.count < tile.width * tile.height)
+      for (std::size_t i = 0; i < own.texel_of.size(); ++i) put(i, 0.5f, 0.5f, 1.0f);
+    for (int i = 0; i < composed.count; ++i)
+      put(static_cast<std::size_t>(composed.pixel[i]), work.code.x[i], work.code.y[i], work.code.z[i]);
     const auto set = [&](const float* flags) {
       float sum = 0; // whole numbers within a tile
       for (int i = 0; i < composed.count; ++i) sum += flags[i];
@@ -94,13 +107,6 @@ class Bands {
     own.counts.singular += set(work.singular);
     own.counts.clamped += set(work.clamped);
     own.counts.degenerate += set(composed.results.degenerate);
-  }
-
-  static void put(image::Image& band, int x, int y, float r, float g, float b) {
-    float* texel = &band.texels[band.index(x, y)];
-    texel[0] = r;
-    texel[1] = g;
-    texel[2] = b;
   }
 
   const scene::Scene& scene_;

@@ -16,28 +16,55 @@ struct PixelRange {
         end(static_cast<int>(std::clamp(high - tile + 1.5, 0.0, double(count)))) {}
 };
 
-/// Columns of a row, from first up to end.
-struct Span {
-  int first, end;
+/// Columns of a row within which all edge functions are positive: possibly, and whatever they are rounded to.
+class Columns {
+ public:
+  explicit Columns(const PixelRange& range)
+      : low_(range.first), high_(range.end - 1), certain_low_(low_), certain_high_(high_) {}
 
-  /// Leaves those columns x whose slope * x + base exceeds a bound, to within a millionth of a column.
-  void clip(double slope, double base, double bound) {
-    constexpr double rounding = 1e-6; // of the division: far more than 2^-52 of any column
-    if (!(slope < 0) && !(slope > 0)) {
-      if (!(base > bound)) end = first;
-      return;
+  /// Leaves those columns x whose slope * x + base is positive, to within `margin`.
+  ///
+  /// inverse  1 / slope
+  void clip(double slope, double inverse, double base, double margin) {
+    constexpr double rounding = 1e-6; // of the border, in columns: far more than 2^-50 of any column
+    const double border = -base * inverse;
+    const double away = margin * std::abs(inverse) + rounding;
+    if (!(border - border == 0) || !(away - away == 0)) {
+      // A horizontal edge, or one that overflows: a bound where it clearly is one, else covers() decides.
+      if (slope == 0 && base < -margin) high_ = low_ - 1;
+      if (!(slope == 0 && base > margin)) certain_high_ = certain_low_ - 1;
+    } else if (slope > 0) {
+      low_ = std::max(low_, border - away);
+      certain_low_ = std::max(certain_low_, border + away);
+    } else {
+      high_ = std::min(high_, border + away);
+      certain_high_ = std::min(certain_high_, border - away);
     }
-    const double border = (bound - base) / slope;
-    const double away = bound > 0 ? rounding : -rounding; // into a certain span, out of a possible one
-    // NaN, where the edge functions overflow, leaves the span as it is.
-    const auto column = [this](double x, int otherwise) {
-      return x == x ? static_cast<int>(std::clamp(x, double(first), double(end))) : otherwise;
-    };
-    if (slope > 0)
-      first = column(std::ceil(border + away), first);
-    else
-      end = column(std::floor(border - away) + 1, end);
   }
+
+  /// The first whole column from x on, which is not negative.
+  static int from(double x) {
+    const int column = static_cast<int>(x);
+    return column + (column < x ? 1 : 0);
+  }
+  /// Calls possible(first, end) and certain(first, end) for runs of columns from left to right.
+  template <class Possible, class Certain>
+  void visit(const Possible& possible, const Certain& certain) const {
+    if (!(low_ <= high_)) return;
+    const int first = from(low_);
+    const int end = static_cast<int>(high_) + 1;
+    if (!(certain_low_ <= certain_high_)) return possible(first, end);
+    const int certain_first = from(certain_low_);
+    const int certain_end = static_cast<int>(certain_high_) + 1;
+    if (certain_first >= certain_end) return possible(first, end);
+    possible(first, certain_first);
+    certain(certain_first, certain_end);
+    possible(certain_end, end);
+  }
+
+ private:
+  double low_, high_;
+  double certain_low_, certain_high_;
 };
 
 /// Calls visit(index in the tile of the first, how many, x and y of its centre) for the pixels of a tile that
@@ -52,27 +79,19 @@ void for_each_covered_run(const Tile& tile, const TrianglePlanes& planes, const 
   // The edge functions decide wherever rounding cannot turn their signs; covers() decides the rest.
   const std::array<vec3<double>, 3>& e = planes.edges();
   const std::array<double, 3> margin = planes.margins(tile.x + tile.width, tile.y + tile.height);
+  const std::array<double, 3> inverse{1 / e[0].x, 1 / e[1].x, 1 / e[2].x};
   const double x_first = tile.x + 0.5;
   for (int row = rows.first; row < rows.end; ++row) {
     const double y = tile.y + row + 0.5;
-    Span possible{columns.first, columns.end};
-    Span certain = possible;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double base = e[i].x * x_first + (e[i].y * y + e[i].z);
-      possible.clip(e[i].x, base, -margin[i]);
-      certain.clip(e[i].x, base, margin[i]);
-    }
-    const int end = possible.end;
-    const int certain_first = std::clamp(certain.first, possible.first, std::max(end, possible.first));
-    const int certain_end = std::clamp(certain.end, certain_first, std::max(end, certain_first));
-    const auto visit_if_covered = [&](int from, int to) {
-      for (int x = from; x < to; ++x)
-        if (planes.covers(x_first + x, y)) visit(row * tile.width + x, 1, x_first + x, y);
-    };
-    visit_if_covered(possible.first, certain_first);
-    if (certain_first < certain_end)
-      visit(row * tile.width + certain_first, certain_end - certain_first, x_first + certain_first, y);
-    visit_if_covered(certain_end, end);
+    Columns within(columns);
+    for (std::size_t i = 0; i < 3; ++i)
+      within.clip(e[i].x, inverse[i], e[i].x * x_first + (e[i].y * y + e[i].z), margin[i]);
+    within.visit(
+        [&](int first, int end) {
+          for (int x = first; x < end; ++x)
+            if (planes.covers(x_first + x, y)) visit(row * tile.width + x, 1, x_first + x, y);
+        },
+        [&](int first, int end) { visit(row * tile.width + first, end - first, x_first + first, y); });
   }
 }
 

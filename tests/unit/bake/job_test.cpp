@@ -84,6 +84,20 @@ TEST(BakeJob, LeavesTexelsWithoutASurfaceFlatAndUncounted) {
   EXPECT_EQ(baked.map.at(15, 15, 2), 1);
 }
 
+TEST(BakeJob, PutsTexelsOfCutTilesWhereTheyBelong) {
+  scene::Scene scene = two_layers();
+  scene.materials[0].layers.clear(); // nothing is filtered: a texel shows its centre
+  // The last tiles of 48 texels, and of three times as many, are cut in half.
+  for (const auto& [width, height] : {std::pair{48, 48}, {32, 48}, {48, 32}}) {
+    const Baked coarse = bake(scene, {width, height, Space::object});
+    const Baked fine = bake(scene, {3 * width, 3 * height, Space::object});
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (int c = 0; c < 3; ++c) // interpolated from other pixels of the triangles: a few roundings apart
+          ASSERT_NEAR(coarse.map.at(x, y, c), fine.map.at(3 * x + 1, 3 * y + 1, c), 1e-6) << x << " " << y;
+  }
+}
+
 TEST(BakeJob, CountsVanishedNormalsAndTangents) {
   scene::Scene scene = two_layers();
   for (vec3<float>& n : scene.meshes[0].normals) n = {0, 0, 0};
