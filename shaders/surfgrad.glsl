@@ -42,6 +42,9 @@
 #ifdef GL_ES
 precision highp float;
 precision highp int;
+#define SURFGRAD_PRECISE
+#else
+#define SURFGRAD_PRECISE precise // as written: (p + step) - p is not step
 #endif
 
 // Numbers and vectors -------------------------------------------------------------------------------------
@@ -1270,7 +1273,7 @@ float surfgrad_detail_difference_quotient(float change, float run) {
 // high, low  its values at p + step and p - step, along x, y and z
 // source     Gustavson
 vec3 surfgrad_gradient_by_differences(vec3 p, float step, vec3 high, vec3 low) {
-  vec3 run = (p + step) - (p - step); // what rounding left of the wanted steps
+  SURFGRAD_PRECISE vec3 run = (p + step) - (p - step); // what rounding left of the wanted steps
   return vec3(surfgrad_detail_difference_quotient(high.x - low.x, run.x),
               surfgrad_detail_difference_quotient(high.y - low.y, run.y),
               surfgrad_detail_difference_quotient(high.z - low.z, run.z));
@@ -1281,7 +1284,7 @@ vec3 surfgrad_gradient_by_differences(vec3 p, float step, vec3 high, vec3 low) {
 // step    about sqrt(eps) times the scale of the function's detail
 // source  Gustavson
 vec3 surfgrad_gradient_by_forward_differences(vec3 p, float step, vec3 high, float value) {
-  vec3 run = (p + step) - p;
+  SURFGRAD_PRECISE vec3 run = (p + step) - p;
   return vec3(surfgrad_detail_difference_quotient(high.x - value, run.x),
               surfgrad_detail_difference_quotient(high.y - value, run.y),
               surfgrad_detail_difference_quotient(high.z - value, run.z));
