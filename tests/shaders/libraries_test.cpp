@@ -164,6 +164,18 @@ TEST(WgslLibrary, MayBeCalledWherePixelsPartWays) {
 )"));
 }
 
+// A compiler looks at what an entry point calls: this looks at all functions.
+TEST(WgslLibrary, TakesDerivativesInTheLastSectionOnly) {
+  const std::string text = library("surfgrad.wgsl");
+  const std::size_t last = text.find("// Derivatives across pixels");
+  ASSERT_NE(last, std::string::npos);
+  static const std::regex derivative("\\b(dpdx|dpdy|fwidth)(Fine|Coarse)?\\(");
+  std::smatch found;
+  const std::string before = text.substr(0, last);
+  EXPECT_FALSE(std::regex_search(before, found, derivative)) << found.str();
+  EXPECT_TRUE(std::regex_search(text, derivative));
+}
+
 TEST(WgslLibrary, DerivativesWantUniformFlowAndTheValidatorSeesIt) {
   const Verdict verdict = compile_wgsl(library("surfgrad.wgsl") + R"(
 @fragment fn main(@location(0) p: vec3f, @location(1) n: vec3f) -> @location(0) vec4f {
