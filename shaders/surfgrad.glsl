@@ -90,9 +90,9 @@ float surfgrad_detail_inverse_length(vec3 v) {
 // v / |v|, for lengths up to 1e18. Shorter than 1e-18 may give zero, as zero does.
 vec3 surfgrad_normalize_or_zero(vec3 v) { return surfgrad_detail_inverse_length(v) * v; }
 
-// v in units of its magnitude: for products, whose squares may leave the range of numbers.
+// v in units of its magnitude: for products, whose squares may leave the range of numbers. Inf stays Inf.
 vec3 surfgrad_detail_in_units_of_itself(vec3 v) {
-  return (1.0 / max(surfgrad_max_abs(v), SURFGRAD_LEAST)) * v;
+  return (1.0 / clamp(surfgrad_max_abs(v), SURFGRAD_LEAST, 1e30)) * v;
 }
 
 // Base-2 logarithm, from the smallest normal number's (-126) up: a finite level of detail, never -Inf.

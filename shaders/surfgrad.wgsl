@@ -90,9 +90,9 @@ fn surfgrad_detail_inverse_length(v: vec3f) -> f32 {
 // v / |v|, for lengths up to 1e18. Shorter than 1e-18 may give zero, as zero does.
 fn surfgrad_normalize_or_zero(v: vec3f) -> vec3f { return surfgrad_detail_inverse_length(v) * v; }
 
-// v in units of its magnitude: for products, whose squares may leave the range of numbers.
+// v in units of its magnitude: for products, whose squares may leave the range of numbers. Inf stays Inf.
 fn surfgrad_detail_in_units_of_itself(v: vec3f) -> vec3f {
-  return (1.0 / max(surfgrad_max_abs(v), SURFGRAD_LEAST)) * v;
+  return (1.0 / clamp(surfgrad_max_abs(v), SURFGRAD_LEAST, 1e30)) * v;
 }
 
 // Base-2 logarithm, from the smallest normal number's (-126) up: a finite level of detail, never -Inf.
