@@ -3,12 +3,25 @@
 /// Images, layers and fragments to try a program on, without files, meshes or rasters.
 
 #include "engine/compose.hpp"
+#include "simd/emulated_lanes.hpp"
 #include "support/images.hpp"
 
 #include <filesystem>
 #include <map>
 #include <utility>
 #include <vector>
+
+namespace surfgrad::engine {
+
+// Compiled once, in compositions.cpp: each is all layer kernels.
+extern template Composition<double> compose(const Program&, const raster::Fragment<double>&, BackFaces,
+                                            const Placement&);
+extern template Composition<float> compose(const Program&, const raster::Fragment<float>&, BackFaces,
+                                           const Placement&);
+extern template Composition<simd::EmulatedFloat>
+compose(const Program&, const raster::Fragment<simd::EmulatedFloat>&, BackFaces, const Placement&);
+
+} // namespace surfgrad::engine
 
 namespace surfgrad::engine::test {
 
