@@ -10,7 +10,8 @@
 //   vec3 n = surfgrad_resolve_normal(frame, surfgrad_from_tbn(slope, tbn.tangent, tbn.bitangent));
 //
 // Several maps on one texture coordinate: add their slopes, then call surfgrad_from_tbn once. Anything
-// else: add the surface gradients, then resolve once.
+// else: add the surface gradients, then resolve once. Nothing but vertex tangents:
+// surfgrad_resolve_mikktspace.
 //
 // Conventions (docs/conventions.md)
 //   texture origin  lower left, t up. Where it is upper left (t down), either sample 1 - t everywhere, or
@@ -41,6 +42,9 @@
 #ifdef GL_ES
 precision highp float;
 precision highp int;
+#define SURFGRAD_PRECISE
+#else
+#define SURFGRAD_PRECISE precise // as written: (p + step) - p is not step
 #endif
 
 // Numbers and vectors -------------------------------------------------------------------------------------
@@ -69,6 +73,9 @@ float surfgrad_reciprocal_or_zero(float a) { return abs(a) < SURFGRAD_LEAST ? 0.
 float surfgrad_saturated(float a) { return clamp(a, -2.12676466e37, 2.12676466e37); }
 vec2 surfgrad_saturated(vec2 v) { return clamp(v, -2.12676466e37, 2.12676466e37); }
 vec3 surfgrad_saturated(vec3 v) { return clamp(v, -2.12676466e37, 2.12676466e37); }
+
+// The length whose square is the smallest normal number.
+const float SURFGRAD_DETAIL_SHORTEST = 1.08420217e-19;
 
 // 1 / |v|; 0 for a vector so short that its square vanishes.
 float surfgrad_detail_inverse_length(vec3 v) {
@@ -154,13 +161,12 @@ SurfgradFrame surfgrad_detail_frame_from_unit_normal(vec3 n, vec3 dp_dx, vec3 dp
 
 // normalize(normal), or the direction of plane_sign * cross(dp_dx, dp_dy) where the normal is zero.
 vec3 surfgrad_detail_unit_normal_or_plane(vec3 normal, vec3 dp_dx, vec3 dp_dy, float plane_sign) {
-  float inverse = surfgrad_detail_inverse_length(normal);
-  if (inverse == 0.0) {
+  if (surfgrad_max_abs(normal) < SURFGRAD_DETAIL_SHORTEST) {
     vec3 plane = plane_sign * cross(dp_dx, dp_dy);
     // In units of its magnitude: the square of a microscopic footprint's area would vanish.
-    return surfgrad_normalize_or_zero(surfgrad_reciprocal_or_zero(surfgrad_max_abs(plane)) * plane);
+    normal = (1.0 / max(surfgrad_max_abs(plane), SURFGRAD_LEAST)) * plane;
   }
-  return inverse * normal;
+  return surfgrad_normalize_or_zero(normal);
 }
 
 // Prologue for a fragment whose back side needs no special care.
@@ -416,6 +422,21 @@ vec3 surfgrad_scale_bump(float scale, vec3 surfgrad) { return scale * surfgrad; 
 vec3 surfgrad_resolve_normal(SurfgradFrame frame, vec3 surfgrad) {
   vec3 v = frame.normal - frame.resolve_sign * surfgrad;
   return (surfgrad_max_abs(frame.normal) == 0.0 ? 0.0 : surfgrad_detail_inverse_length(v)) * v;
+}
+
+// The perturbed normal of a surface that is bumped through its vertex tangents alone: the cheapest way, with
+// one normalisation. Equals surfgrad_resolve_normal(surfgrad_make_frame(normal), g), where g is
+// surfgrad_from_tbn of deriv with surfgrad_mikktspace_basis(normal, tangent, sign).
+//
+// normal, tangent  interpolated, not normalised
+// sign             handedness (tangent.w)
+// deriv            the sum of all slopes on the texture coordinate of the tangents
+// back faces       mode flip: negate the result. Mode mirror: pass -normal and -sign
+// degenerate       a zero normal gives zero
+vec3 surfgrad_resolve_mikktspace(vec3 normal, vec3 tangent, float sign, vec2 deriv) {
+  vec3 v = normal - deriv.x * tangent - (sign > 0.0 ? deriv.y : -deriv.y) * cross(normal, tangent);
+  float inverse = inversesqrt(max(dot(v, v), SURFGRAD_LEAST));
+  return (surfgrad_max_abs(normal) == 0.0 ? 0.0 : inverse) * v;
 }
 
 // Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-resolved,
@@ -1028,10 +1049,15 @@ struct SurfgradNoise {
   vec3 gradient; // derivatives of the value by the coordinates of the sampling point
 };
 
+// The odd multipliers by which the hash sums a cell's indices: a neighbour's sum is one addition away.
+const uint SURFGRAD_DETAIL_LATTICE_X = 0x5cdbcce3u;
+const uint SURFGRAD_DETAIL_LATTICE_Y = 0x456e33c9u;
+const uint SURFGRAD_DETAIL_LATTICE_Z = 0xe1392b77u;
+
 // What the noises over a moved lattice start from at a cell (indices modulo 2^32): added to its own hash, it
 // makes noise sampled near that cell exact however far away the cell is.
 uint surfgrad_lattice_start(uint x, uint y, uint z) {
-  return x * 0x5cdbcce3u + y * 0x456e33c9u + z * 0xe1392b77u;
+  return x * SURFGRAD_DETAIL_LATTICE_X + y * SURFGRAD_DETAIL_LATTICE_Y + z * SURFGRAD_DETAIL_LATTICE_Z;
 }
 
 uint surfgrad_detail_finalised(uint h) {
@@ -1040,14 +1066,16 @@ uint surfgrad_detail_finalised(uint h) {
   return h ^ (h >> 16u);
 }
 
-uint surfgrad_detail_moved_hash(ivec3 cell, uint start) {
-  return surfgrad_detail_finalised(surfgrad_lattice_start(uint(cell.x), uint(cell.y), uint(cell.z)) + start);
+uint surfgrad_detail_lattice_sum(ivec3 cell) {
+  return surfgrad_lattice_start(uint(cell.x), uint(cell.y), uint(cell.z));
 }
 
 // 32 well mixed bits for a point of the integer lattice.
 //
 // source  own sum of the indices; finaliser: C. Wellons, lowbias32
-uint surfgrad_lattice_hash(int x, int y, int z) { return surfgrad_detail_moved_hash(ivec3(x, y, z), 0u); }
+uint surfgrad_lattice_hash(int x, int y, int z) {
+  return surfgrad_detail_finalised(surfgrad_detail_lattice_sum(ivec3(x, y, z)));
+}
 
 // `count` bits from position `first` up, as a number.
 float surfgrad_detail_bit_field(uint word, uint first, uint count) {
@@ -1059,15 +1087,17 @@ vec3 surfgrad_detail_saturate_to_lattice(vec3 p) {
   return clamp(p, -extent, extent);
 }
 
-// One of the 12 directions to the edges of a cube, four of them twice: chosen by the low four bits (Perlin
-// 2002).
+// One of the 12 directions to the edges of a cube, four of them twice: chosen by the low four bits.
 vec3 surfgrad_detail_edge_direction(uint hash) {
   uint choice = hash & 15u;
   float first = (hash & 1u) == 0u ? 1.0 : -1.0;
   float second = (hash & 2u) == 0u ? 1.0 : -1.0;
-  if (choice < 4u) return vec3(first, second, 0.0);
-  if (choice < 8u) return vec3(first, 0.0, second);
-  return choice == 12u || choice == 14u ? vec3(second, first, 0.0) : vec3(0.0, first, second);
+  // `first` belongs to x or y, `second` to y, x or z.
+  bool first_is_x = choice < 8u;
+  bool second_is_y = choice < 4u;
+  bool second_is_x = choice == 12u || choice == 14u;
+  return vec3(first_is_x ? first : (second_is_x ? second : 0.0),
+              first_is_x ? (second_is_y ? second : 0.0) : first, second_is_y || second_is_x ? 0.0 : second);
 }
 
 SurfgradNoise surfgrad_detail_mix(SurfgradNoise a, SurfgradNoise b, float weight) {
@@ -1075,8 +1105,9 @@ SurfgradNoise surfgrad_detail_mix(SurfgradNoise a, SurfgradNoise b, float weight
                        a.gradient + weight * (b.gradient - a.gradient));
 }
 
-SurfgradNoise surfgrad_detail_perlin_corner(ivec3 cell, uint start, vec3 offset) {
-  vec3 direction = surfgrad_detail_edge_direction(surfgrad_detail_moved_hash(cell, start));
+// sum: of the corner's indices, finalised to its hash.
+SurfgradNoise surfgrad_detail_perlin_corner(uint sum, vec3 offset) {
+  vec3 direction = surfgrad_detail_edge_direction(surfgrad_detail_finalised(sum));
   return SurfgradNoise(dot(direction, offset), direction);
 }
 
@@ -1084,20 +1115,20 @@ float surfgrad_detail_fade(float t) { return t * t * t * (t * (t * 6.0 - 15.0) +
 float surfgrad_detail_fade_slope(float t) { return 30.0 * t * t * (t - 1.0) * (t - 1.0); }
 
 // Mixed along x. The weight depends on one coordinate: its slope adds to that component only.
-SurfgradNoise surfgrad_detail_perlin_edge(ivec3 cell, uint start, vec3 offset) {
-  SurfgradNoise low = surfgrad_detail_perlin_corner(cell, start, offset);
+SurfgradNoise surfgrad_detail_perlin_edge(uint sum, vec3 offset) {
+  SurfgradNoise low = surfgrad_detail_perlin_corner(sum, offset);
   SurfgradNoise high =
-      surfgrad_detail_perlin_corner(cell + ivec3(1, 0, 0), start, offset - vec3(1.0, 0.0, 0.0));
+      surfgrad_detail_perlin_corner(sum + SURFGRAD_DETAIL_LATTICE_X, offset - vec3(1.0, 0.0, 0.0));
   SurfgradNoise n = surfgrad_detail_mix(low, high, surfgrad_detail_fade(offset.x));
   n.gradient.x += surfgrad_detail_fade_slope(offset.x) * (high.value - low.value);
   return n;
 }
 
 // Mixed along x and y.
-SurfgradNoise surfgrad_detail_perlin_face(ivec3 cell, uint start, vec3 offset) {
-  SurfgradNoise low = surfgrad_detail_perlin_edge(cell, start, offset);
+SurfgradNoise surfgrad_detail_perlin_face(uint sum, vec3 offset) {
+  SurfgradNoise low = surfgrad_detail_perlin_edge(sum, offset);
   SurfgradNoise high =
-      surfgrad_detail_perlin_edge(cell + ivec3(0, 1, 0), start, offset - vec3(0.0, 1.0, 0.0));
+      surfgrad_detail_perlin_edge(sum + SURFGRAD_DETAIL_LATTICE_Y, offset - vec3(0.0, 1.0, 0.0));
   SurfgradNoise n = surfgrad_detail_mix(low, high, surfgrad_detail_fade(offset.y));
   n.gradient.y += surfgrad_detail_fade_slope(offset.y) * (high.value - low.value);
   return n;
@@ -1112,20 +1143,20 @@ SurfgradNoise surfgrad_detail_perlin_face(ivec3 cell, uint start, vec3 offset) {
 SurfgradNoise surfgrad_perlin(vec3 p, uint start) {
   vec3 q = surfgrad_detail_saturate_to_lattice(p);
   vec3 low_corner = floor(q);
-  ivec3 cell = ivec3(low_corner);
   vec3 offset = q - low_corner;
-  SurfgradNoise low = surfgrad_detail_perlin_face(cell, start, offset);
+  uint sum = surfgrad_detail_lattice_sum(ivec3(low_corner)) + start;
+  SurfgradNoise low = surfgrad_detail_perlin_face(sum, offset);
   SurfgradNoise high =
-      surfgrad_detail_perlin_face(cell + ivec3(0, 0, 1), start, offset - vec3(0.0, 0.0, 1.0));
+      surfgrad_detail_perlin_face(sum + SURFGRAD_DETAIL_LATTICE_Z, offset - vec3(0.0, 0.0, 1.0));
   SurfgradNoise n = surfgrad_detail_mix(low, high, surfgrad_detail_fade(offset.z));
   n.gradient.z += surfgrad_detail_fade_slope(offset.z) * (high.value - low.value);
   return n;
 }
 SurfgradNoise surfgrad_perlin(vec3 p) { return surfgrad_perlin(p, 0u); }
 
-// What the corner of a simplex at `cell` adds to the noise at the distance r from it.
-SurfgradNoise surfgrad_detail_simplex_corner(ivec3 cell, uint start, vec3 r) {
-  vec3 direction = surfgrad_detail_edge_direction(surfgrad_detail_moved_hash(cell, start));
+// What a corner of a simplex adds to the noise at the distance r from it.
+SurfgradNoise surfgrad_detail_simplex_corner(uint sum, vec3 r) {
+  vec3 direction = surfgrad_detail_edge_direction(surfgrad_detail_finalised(sum));
   float ramp = dot(direction, r);
   float t = max(0.5 - dot(r, r), 0.0);
   float t2 = t * t;
@@ -1147,17 +1178,20 @@ SurfgradNoise surfgrad_simplex(vec3 p, uint start) {
   vec3 q = surfgrad_detail_saturate_to_lattice(p);
   vec3 cell = floor(q + (q.x + q.y + q.z) * (1.0 / 3.0));
   vec3 d = q - (cell - (cell.x + cell.y + cell.z) * sixth);
-  ivec3 index = ivec3(cell);
+  uint sum = surfgrad_detail_lattice_sum(ivec3(cell)) + start;
   // From the first corner along the axis of the largest component, then the middle, then the least.
   bool x_from_y = !(d.x < d.y);
   bool x_from_z = !(d.x < d.z);
   bool y_from_z = !(d.y < d.z);
   ivec3 one = ivec3(x_from_y && x_from_z, !x_from_y && y_from_z, !x_from_z && !y_from_z);
   ivec3 two = ivec3(x_from_y || x_from_z, !x_from_y || y_from_z, !x_from_z || !y_from_z);
-  SurfgradNoise a = surfgrad_detail_simplex_corner(index, start, d);
-  SurfgradNoise b = surfgrad_detail_simplex_corner(index + one, start, d - vec3(one) + sixth);
-  SurfgradNoise c = surfgrad_detail_simplex_corner(index + two, start, d - vec3(two) + 2.0 * sixth);
-  SurfgradNoise e = surfgrad_detail_simplex_corner(index + 1, start, d - 1.0 + 0.5);
+  SurfgradNoise a = surfgrad_detail_simplex_corner(sum, d);
+  SurfgradNoise b =
+      surfgrad_detail_simplex_corner(sum + surfgrad_detail_lattice_sum(one), d - vec3(one) + sixth);
+  SurfgradNoise c =
+      surfgrad_detail_simplex_corner(sum + surfgrad_detail_lattice_sum(two), d - vec3(two) + 2.0 * sixth);
+  SurfgradNoise e =
+      surfgrad_detail_simplex_corner(sum + surfgrad_detail_lattice_sum(ivec3(1)), d - 1.0 + 0.5);
   return SurfgradNoise(scale * (a.value + b.value + c.value + e.value),
                        scale * (a.gradient + b.gradient + c.gradient + e.gradient));
 }
@@ -1178,8 +1212,8 @@ const int SURFGRAD_WORLEY_KIND_F2_MINUS_F1 = 1; // excess of that to the second 
 SurfgradNoise surfgrad_worley(vec3 p, int kind, uint start) {
   vec3 q = surfgrad_detail_saturate_to_lattice(p);
   vec3 low_corner = floor(q);
-  ivec3 cell = ivec3(low_corner);
   vec3 fraction = q - low_corner;
+  uint sum = surfgrad_detail_lattice_sum(ivec3(low_corner)) + start;
   // Squared distances, and offsets from the feature points to p. Starting at the cap leaves the zero offset,
   // hence no gradient, where nothing is nearer.
   float nearest = 1.0;
@@ -1190,7 +1224,7 @@ SurfgradNoise surfgrad_worley(vec3 p, int kind, uint start) {
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) {
         ivec3 neighbour = ivec3(x, y, z);
-        uint h = surfgrad_detail_moved_hash(cell + neighbour, start);
+        uint h = surfgrad_detail_finalised(sum + surfgrad_detail_lattice_sum(neighbour));
         vec3 feature = (vec3(neighbour) + 0.5 / 1024.0) + vec3(surfgrad_detail_bit_field(h, 0u, 10u),
                                                                surfgrad_detail_bit_field(h, 10u, 10u),
                                                                surfgrad_detail_bit_field(h, 20u, 10u)) *
@@ -1239,7 +1273,7 @@ float surfgrad_detail_difference_quotient(float change, float run) {
 // high, low  its values at p + step and p - step, along x, y and z
 // source     Gustavson
 vec3 surfgrad_gradient_by_differences(vec3 p, float step, vec3 high, vec3 low) {
-  vec3 run = (p + step) - (p - step); // what rounding left of the wanted steps
+  SURFGRAD_PRECISE vec3 run = (p + step) - (p - step); // what rounding left of the wanted steps
   return vec3(surfgrad_detail_difference_quotient(high.x - low.x, run.x),
               surfgrad_detail_difference_quotient(high.y - low.y, run.y),
               surfgrad_detail_difference_quotient(high.z - low.z, run.z));
@@ -1250,7 +1284,7 @@ vec3 surfgrad_gradient_by_differences(vec3 p, float step, vec3 high, vec3 low) {
 // step    about sqrt(eps) times the scale of the function's detail
 // source  Gustavson
 vec3 surfgrad_gradient_by_forward_differences(vec3 p, float step, vec3 high, float value) {
-  vec3 run = (p + step) - p;
+  SURFGRAD_PRECISE vec3 run = (p + step) - p;
   return vec3(surfgrad_detail_difference_quotient(high.x - value, run.x),
               surfgrad_detail_difference_quotient(high.y - value, run.y),
               surfgrad_detail_difference_quotient(high.z - value, run.z));
@@ -1409,13 +1443,13 @@ struct SurfgradDetailHexTile {
   vec2 st, rotation;
 };
 
-// The tile of a vertex. along: (i, j) from there to the point `place`.
-SurfgradDetailHexTile surfgrad_detail_hex_tile(ivec2 vertex, uint start, vec2 place, float side, vec2 along,
-                                               float strength, vec2 period) {
+// The tile of a vertex. sum: of its indices; along: (i, j) from there to the point `place`.
+SurfgradDetailHexTile surfgrad_detail_hex_tile(uint sum, vec2 place, float side, vec2 along, float strength,
+                                               vec2 period) {
   const float unit = 1.0 / 65536.0;
   vec2 d = vec2(side * (along.x + 0.5 * along.y), side * (0.86602540378443864676 * along.y)); // sqrt(3) / 2
-  uint shift = surfgrad_detail_moved_hash(ivec3(vertex, 0), start);
-  uint turn = surfgrad_detail_moved_hash(ivec3(vertex, 1), start);
+  uint shift = surfgrad_detail_finalised(sum);
+  uint turn = surfgrad_detail_finalised(sum + SURFGRAD_DETAIL_LATTICE_Z);
   SurfgradSinCos r =
       surfgrad_sin_cos_turns(strength * (unit * surfgrad_detail_bit_field(turn, 0u, 16u) - 0.5));
   // R d + centre = p + (R - 1) d: the centre is not needed, and without a turn p stays what it is.
@@ -1446,17 +1480,18 @@ SurfgradHexTiles surfgrad_hex_tiles(vec2 st, float rotation, float edge, vec2 pe
   vec2 ij = vec2(q.x - 0.57735026918962576451 * q.y, 1.15470053837925152902 * q.y);
   vec2 low = floor(ij);
   vec2 f = ij - low;
-  ivec2 cell = ivec2(low);
+  uint vertex = surfgrad_detail_lattice_sum(ivec3(low, 0.0)) + origin.start;
   // The diagonal from (1, 0) to (0, 1) divides a cell into two triangles.
   float sum = f.x + f.y;
   bool lower = sum < 1.0;
   vec2 corner = lower ? vec2(0.0) : vec2(1.0);
   vec2 place = p + origin.shift;
   SurfgradDetailHexTile a =
-      surfgrad_detail_hex_tile(cell + ivec2(corner), origin.start, place, side, f - corner, strength, period);
-  SurfgradDetailHexTile b = surfgrad_detail_hex_tile(cell + ivec2(1, 0), origin.start, place, side,
+      surfgrad_detail_hex_tile(vertex + (lower ? 0u : SURFGRAD_DETAIL_LATTICE_X + SURFGRAD_DETAIL_LATTICE_Y),
+                               place, side, f - corner, strength, period);
+  SurfgradDetailHexTile b = surfgrad_detail_hex_tile(vertex + SURFGRAD_DETAIL_LATTICE_X, place, side,
                                                      f - vec2(1.0, 0.0), strength, period);
-  SurfgradDetailHexTile c = surfgrad_detail_hex_tile(cell + ivec2(0, 1), origin.start, place, side,
+  SurfgradDetailHexTile c = surfgrad_detail_hex_tile(vertex + SURFGRAD_DETAIL_LATTICE_Y, place, side,
                                                      f - vec2(0.0, 1.0), strength, period);
   SurfgradHexTiles tiles;
   tiles.st[0] = a.st;
