@@ -80,10 +80,10 @@ enum class MapKind {
   cube,          ///< image::make_cube_map
 };
 
-/// A map that the code reads. In `exact` access its index in Shader::textures is that of its ExactMap.
+/// A map that the code reads.
 struct TextureBinding {
   std::string name{};    ///< of the texture in the code
-  int binding = 0;       ///< hardware: of the texture
+  int binding = 0;       ///< of the texture; in `exact` access the index of its (first) ExactMap
   std::string sampler{}; ///< of its sampler, in languages that have them apart
   int sampler_binding = 0;
   MapKind kind = MapKind::slopes;
@@ -115,9 +115,10 @@ struct SurfaceMember {
     position, ///< vec3 position: world space, where the surface lies
     normal,   ///< vec3 normal: world space, interpolated, not normalised
     dp_dx,
-    dp_dy,        ///< vec3: change of the position per pixel
-    front_facing, ///< bool
-    st,           ///< vec2 stN: texture coordinate of UV set N
+    dp_dy,            ///< vec3: change of the position per pixel
+    front_facing,     ///< bool
+    normal_is_absent, ///< bool, diagnostics only: `normal` stands in for one that interpolation lacks
+    st,               ///< vec2 stN: texture coordinate of UV set N
     dst_dx,
     dst_dy,            ///< vec2 dstN_dx, dstN_dy
     tangent,           ///< vec4 tangentN: interpolated vertex tangent, not normalised, and the sign
