@@ -69,10 +69,12 @@ float surfgrad_max_abs(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); 
 // 1 / a, or 0 where |a| is below the smallest normal number.
 float surfgrad_reciprocal_or_zero(float a) { return abs(a) < SURFGRAD_LEAST ? 0.0 : 1.0 / a; }
 
-// a within a sixteenth of the largest number, so that a few of them can be added.
-float surfgrad_saturated(float a) { return clamp(a, -2.12676466e37, 2.12676466e37); }
-vec2 surfgrad_saturated(vec2 v) { return clamp(v, -2.12676466e37, 2.12676466e37); }
-vec3 surfgrad_saturated(vec3 v) { return clamp(v, -2.12676466e37, 2.12676466e37); }
+const float SURFGRAD_DETAIL_SATURATED = 2.12676466e37; // a sixteenth of SURFGRAD_MOST
+
+// a within that magnitude, so that a few such numbers can be added.
+float surfgrad_saturated(float a) { return clamp(a, -SURFGRAD_DETAIL_SATURATED, SURFGRAD_DETAIL_SATURATED); }
+vec2 surfgrad_saturated(vec2 v) { return clamp(v, -SURFGRAD_DETAIL_SATURATED, SURFGRAD_DETAIL_SATURATED); }
+vec3 surfgrad_saturated(vec3 v) { return clamp(v, -SURFGRAD_DETAIL_SATURATED, SURFGRAD_DETAIL_SATURATED); }
 
 // The length whose square is the smallest normal number.
 const float SURFGRAD_DETAIL_SHORTEST = 1.08420217e-19;
@@ -1225,10 +1227,9 @@ SurfgradNoise surfgrad_worley(vec3 p, int kind, uint start) {
       for (int x = -1; x <= 1; ++x) {
         ivec3 neighbour = ivec3(x, y, z);
         uint h = surfgrad_detail_finalised(sum + surfgrad_detail_lattice_sum(neighbour));
-        vec3 feature = (vec3(neighbour) + 0.5 / 1024.0) + vec3(surfgrad_detail_bit_field(h, 0u, 10u),
-                                                               surfgrad_detail_bit_field(h, 10u, 10u),
-                                                               surfgrad_detail_bit_field(h, 20u, 10u)) *
-                                                              (1.0 / 1024.0);
+        vec3 bits = vec3(surfgrad_detail_bit_field(h, 0u, 10u), surfgrad_detail_bit_field(h, 10u, 10u),
+                         surfgrad_detail_bit_field(h, 20u, 10u));
+        vec3 feature = (vec3(neighbour) + 0.5 / 1024.0) + bits * (1.0 / 1024.0);
         vec3 offset = fraction - feature;
         float squared = dot(offset, offset);
         if (squared < nearest) {

@@ -63,10 +63,16 @@ float surfgrad_max_abs(float3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z))
 // 1 / a, or 0 where |a| is below the smallest normal number.
 float surfgrad_reciprocal_or_zero(float a) { return abs(a) < SURFGRAD_LEAST ? 0.0 : 1.0 / a; }
 
-// a within a sixteenth of the largest number, so that a few of them can be added.
-float surfgrad_saturated(float a) { return clamp(a, -2.12676466e37, 2.12676466e37); }
-float2 surfgrad_saturated(float2 v) { return clamp(v, -2.12676466e37, 2.12676466e37); }
-float3 surfgrad_saturated(float3 v) { return clamp(v, -2.12676466e37, 2.12676466e37); }
+static const float SURFGRAD_DETAIL_SATURATED = 2.12676466e37; // a sixteenth of SURFGRAD_MOST
+
+// a within that magnitude, so that a few such numbers can be added.
+float surfgrad_saturated(float a) { return clamp(a, -SURFGRAD_DETAIL_SATURATED, SURFGRAD_DETAIL_SATURATED); }
+float2 surfgrad_saturated(float2 v) {
+  return clamp(v, -SURFGRAD_DETAIL_SATURATED, SURFGRAD_DETAIL_SATURATED);
+}
+float3 surfgrad_saturated(float3 v) {
+  return clamp(v, -SURFGRAD_DETAIL_SATURATED, SURFGRAD_DETAIL_SATURATED);
+}
 
 // The length whose square is the smallest normal number.
 static const float SURFGRAD_DETAIL_SHORTEST = 1.08420217e-19;
@@ -739,8 +745,8 @@ SurfgradParallaxHit surfgrad_march_parallax_end(SurfgradParallaxMarch march) {
 #define SURFGRAD_MARCH_PARALLAX(hit, HEIGHT_AT, st, dst, step_limit)                                         \
   {                                                                                                          \
     SurfgradParallaxMarch march_ = surfgrad_march_parallax_begin(st, dst, step_limit);                       \
-    [loop] while (surfgrad_march_parallax_asks(march_)) march_ =                                             \
-        surfgrad_march_parallax_answer(march_, HEIGHT_AT(surfgrad_march_parallax_at(march_)));               \
+    while (surfgrad_march_parallax_asks(march_))                                                             \
+      march_ = surfgrad_march_parallax_answer(march_, HEIGHT_AT(surfgrad_march_parallax_at(march_)));        \
     hit = surfgrad_march_parallax_end(march_);                                                               \
   }
 
@@ -1260,10 +1266,9 @@ SurfgradNoise surfgrad_worley(float3 p, int kind, uint start) {
       for (int x = -1; x <= 1; ++x) {
         int3 neighbour = int3(x, y, z);
         uint h = surfgrad_detail_finalised(sum + surfgrad_detail_lattice_sum(neighbour));
-        float3 feature = (float3(neighbour) + 0.5 / 1024.0) + float3(surfgrad_detail_bit_field(h, 0u, 10u),
-                                                                     surfgrad_detail_bit_field(h, 10u, 10u),
-                                                                     surfgrad_detail_bit_field(h, 20u, 10u)) *
-                                                                  (1.0 / 1024.0);
+        float3 bits = float3(surfgrad_detail_bit_field(h, 0u, 10u), surfgrad_detail_bit_field(h, 10u, 10u),
+                             surfgrad_detail_bit_field(h, 20u, 10u));
+        float3 feature = (float3(neighbour) + 0.5 / 1024.0) + bits * (1.0 / 1024.0);
         float3 offset = fraction - feature;
         float squared = dot(offset, offset);
         if (squared < nearest) {

@@ -18,7 +18,7 @@ SurfgradFrame in_frame(uint k) {
 
 vec2 v2(float a, float b) { return vec2(a, b); }
 vec3 v3(float a, float b, float c) { return vec3(a, b, c); }
-int whole(float a) { return int(floor(a)); }
+int whole(float a) { return int(clamp(floor(a), -5e8, 5e8)); }
 SurfgradTriplanarConvention convention(int handedness, int origin, int planes) {
   return SurfgradTriplanarConvention(handedness, origin, planes);
 }

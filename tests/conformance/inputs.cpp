@@ -184,6 +184,8 @@ void add_frames(std::vector<EdgeCase>& cases) {
     cases.push_back(made);
   };
   add(make_frame(-z, x, y), "facing away");
+  add(make_frame(x, y, z), "edge-on");
+  add(make_frame(vec3<float>{1, 0, 1}, x - z, y), "slanted");
   add(make_frame(z, -x, y), "mirrored");
   add(make_frame(z, x, x), "collapsed");
   add(make_frame(z, x, -3.0f * x), "collapsed the other way");
@@ -221,6 +223,15 @@ std::vector<EdgeCase> edge_cases(const std::vector<const Field*>& used) {
       if (f->name == "rotation") made.in.core.rotation = {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
       cases.push_back(made);
     }
+    if (f->name == "direction")
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const float sign : {1.0f, -1.0f}) {
+          EdgeCase made{plain_inputs(), Edge::ordinary,
+                        std::string("direction along axis ") + (sign < 0 ? "-" : "") + "xyz"[axis]};
+          float* v = values(made.in, *f);
+          for (std::size_t i = 0; i < 3; ++i) v[i] = i == axis ? sign : 0.0f;
+          cases.push_back(made);
+        }
     if (!is_free(*f)) continue;
     for (const Special& special : specials()) {
       // A position between two texels, or so near a map that a march resolves it.

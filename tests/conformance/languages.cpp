@@ -1,5 +1,9 @@
 #include "conformance/languages.hpp"
 
+#include "support/temporary_folder.hpp"
+
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -15,14 +19,9 @@ std::string read(const std::string& path) {
   return text.str();
 }
 
-/// $name as what reads it, by the harness; WGSL's names for GLSL's overloads.
+/// A row's call, $name as what reads it by the harness.
 std::string statement_of(const Row& row, Language language) {
-  std::string text = row.call;
-  if (language == Language::wgsl)
-    for (const auto& [from, to] : row.wgsl_names)
-      for (std::size_t at = text.find(from + "("); at != std::string::npos;
-           at = text.find(from + "(", at + to.size()))
-        text.replace(at, from.size(), to);
+  std::string text = language == Language::wgsl ? wgsl_call(row) : row.call;
   for (std::size_t at = text.find('$'); at != std::string::npos; at = text.find('$')) {
     std::size_t end = at + 1;
     while (end < text.size() &&
@@ -32,6 +31,20 @@ std::string statement_of(const Row& row, Language language) {
     text.replace(at, end - at, "in" + std::string(f.kind) + "(" + std::to_string(f.offset) + "u)");
   }
   return text + ";";
+}
+
+/// By naga, in Node.js: there is no compiler for WGSL among Debian's packages.
+gpu::Spirv spirv_of_wgsl(const std::string& text) {
+  const TemporaryFolder folder;
+  const std::string from = folder.write("shader.wgsl", text).string();
+  const std::string to = (folder.path() / "shader.spv").string();
+  const std::string command =
+      SURFGRAD_NODE " " SURFGRAD_SOURCE_DIR "/tests/conformance/wgsl.mjs spirv " + from + " " + to;
+  if (std::system(command.c_str()) != 0) throw std::runtime_error("naga refuses the shader");
+  const std::string bytes = read(to);
+  gpu::Spirv words(bytes.size() / sizeof(std::uint32_t));
+  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+  return words;
 }
 
 } // namespace
@@ -84,7 +97,7 @@ std::string shader_text(Language language, std::span<const Row* const> rows) {
 }
 
 gpu::Spirv compiled(Language language, const std::string& text) {
-  if (language == Language::wgsl) throw std::runtime_error("no WGSL compiler yet");
+  if (language == Language::wgsl) return spirv_of_wgsl(text);
   gpu::ShaderSource source;
   source.text = text;
   source.name = std::string("conformance.") + name_of(language);

@@ -12,7 +12,7 @@
 namespace surfgrad::test {
 
 enum class Language { glsl, hlsl, wgsl };
-inline constexpr Language languages[] = {Language::glsl};
+inline constexpr Language languages[] = {Language::glsl, Language::hlsl, Language::wgsl};
 
 [[nodiscard]] const char* name_of(Language language);
 

@@ -4,6 +4,7 @@
 #include "conformance/rows.hpp"
 #include "support/core_functions.hpp"
 
+#include <map>
 #include <stdexcept>
 
 namespace surfgrad::test {
@@ -19,7 +20,7 @@ const std::map<std::string, std::string>& shader_calls() {
       {"derivative_from_bicubic", "put2(surfgrad_derivative_from_bicubic($texels, $fraction))"},
       {"make_frame", "put_sigma(surfgrad_make_frame($raw_normal, frame_dp_dx, frame_dp_dy))"},
       {"make_frame: normal, signs",
-       "put_signs(surfgrad_make_frame($raw_normal, frame_dp_dx, frame_dp_dy, $sign < $scale, "
+       "put_signs(surfgrad_make_frame($raw_normal, frame_dp_dx, frame_dp_dy, ($sign < $scale), "
        "SURFGRAD_BACK_FACES_FLIP))"},
       {"rebase_frame", "put_sigma(surfgrad_rebase_frame($frame, $direction))"},
       {"mikktspace_basis", "put_basis(surfgrad_mikktspace_basis($raw_normal, $raw_tangent, $sign))"},
@@ -82,6 +83,7 @@ constexpr const char* clamping[] = {"derivative_from_normal(3)",
                                     "make_frame",
                                     "make_frame: normal, signs",
                                     "make_frame(normal)",
+                                    "resolve_mikktspace",
                                     "make_frame: back faces SAME",
                                     "make_frame: back faces MIRROR",
                                     "make_frame: back faces FLIP",
@@ -155,6 +157,23 @@ void add_listing_rows(std::vector<Row>& rows) {
         auto eps = frame_bound(0, in.core.direction, in.core.dp_du, in.core.dp_dv);
         for (double& each : eps) each *= vulkan_rounding;
         return eps;
+      }));
+  rows.push_back(make_row(
+      "resolve_mikktspace", "put3(surfgrad_resolve_mikktspace($raw_normal, $raw_tangent, $sign, $deriv))",
+      [](const auto& in) {
+        const auto basis = mikktspace_basis(in.core.raw_normal, in.core.raw_tangent, in.core.sign);
+        return flat(resolve_normal(make_frame(in.core.raw_normal),
+                                   from_tbn(in.core.deriv, basis.tangent, basis.bitangent)));
+      },
+      [](const ShaderInputs<double>& in) {
+        // The terms of n - deriv.x t - deriv.y b round by their own sizes, and may cancel.
+        const vec3<double> n = in.core.raw_normal;
+        const vec3<double> t = in.core.deriv.x * in.core.raw_tangent;
+        const vec3<double> b = in.core.deriv.y * cross(n, in.core.raw_tangent);
+        const double terms =
+            length(n) + length(t) + 2 * std::abs(in.core.deriv.y) * length(n) * length(in.core.raw_tangent);
+        const double sum = length(n - t - (in.core.sign > 0 ? 1.0 : -1.0) * b);
+        return all_within<3>(vulkan_rounding * 4 * std::max(1.0, terms / sum));
       }));
   rows.push_back(make_row(
       "scale_bump(2)", "put2(surfgrad_scale_bump($scale, $deriv))",
@@ -271,6 +290,7 @@ void add_listing_rows(std::vector<Row>& rows) {
   for (Row& row : rows) {
     for (const char* name : clamping)
       if (row.name == name) row.nan = NanPolicy::may_vanish;
+    row.overflows = row.name == "resolve_mikktspace";
     // Collapsed coordinates multiply by 0 rather than select it.
     if (row.name == "tangent_basis") row.nan = NanPolicy::open;
   }

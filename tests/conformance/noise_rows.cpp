@@ -178,6 +178,55 @@ T hills(vec3<T> p) {
   return p.x * p.x + p.y * p.z - T(0.5) * p.z * p.z;
 }
 
+/// What a sum of one's own is made of.
+void add_octaves(std::vector<Row>& rows) {
+  rows.push_back(make_row(
+      "octave_visibility", "put1(surfgrad_octave_visibility($turn))",
+      [](const auto& in) { return std::array{detail::octave_visibility(in.turn)}; },
+      [](const Exact&) { return std::array{16.0}; })); // 1 - t^2 (3 - 2 t) and its t = 2 x - 1/2
+  rows.push_back(make_row(
+      "basis_noise", "put_noise(surfgrad_basis_noise($place, SURFGRAD_BASIS_SIMPLEX, 987654321u))",
+      [](const auto& in) {
+        using T = std::decay_t<decltype(in.fade)>;
+        return flat(simplex(in.place, MovedLatticeHash<T>{start}));
+      },
+      [](const Exact& in) { return simplex_bound(in.place); }));
+  // An octave is a sum of one octave, of the noise that is added.
+  const auto octave = [&](Sum sum, const char* word) {
+    rows.push_back(make_row(
+        std::string(word) + "_octave",
+        std::string("put_noise(surfgrad_") + word + "_octave(noise($height_map.x, $gradient)))",
+        [sum](const auto& in) {
+          using T = std::decay_t<decltype(in.fade)>;
+          const Noise<T> n{in.height_map.x, in.core.gradient};
+          const auto basis = [n](vec3<T>) { return n; };
+          const Fractal<T> one{1, T(2), T(1)};
+          return flat(sum == Sum::turbulence ? turbulence(in.place, one, T(0), basis)
+                                             : ridged(in.place, one, T(0), basis));
+        },
+        [](const Exact& in) {
+          const double slope = 6 * max_abs(in.core.gradient);
+          return std::array{4.0, slope, slope, slope};
+        }));
+  };
+  octave(Sum::turbulence, "turbulence");
+  octave(Sum::ridged, "ridged");
+  rows.push_back(make_row(
+      "add_octave",
+      "put_noise(surfgrad_add_octave(noise($alpha, $tangent), noise($height_map.x, $gradient), 2.0, 0.5, "
+      "$width))",
+      [](const auto& in) {
+        using T = std::decay_t<decltype(in.fade)>;
+        const T weight = T(0.5) * detail::octave_visibility(T(2) * in.width);
+        const vec3<T> gradient = in.core.tangent + (weight * T(2)) * in.core.gradient;
+        return std::array{in.alpha + weight * in.height_map.x, gradient.x, gradient.y, gradient.z};
+      },
+      [](const Exact& in) {
+        const vec3<double> slope = 18.0 * (absolute(in.core.tangent) + absolute(in.core.gradient));
+        return std::array{18 * (in.alpha + std::abs(in.height_map.x)), slope.x, slope.y, slope.z};
+      }));
+}
+
 void add_elementary(std::vector<Row>& rows) {
   rows.push_back(make_row(
       "log2", "put1(surfgrad_log2($positive))", [](const auto& in) { return std::array{log2(in.positive)}; },
@@ -237,9 +286,9 @@ void add_hashes(std::vector<Row>& rows) {
   rows.push_back(make_row(
       "lattice_hash", "put_word(surfgrad_lattice_hash(whole($place.x), whole($place.y), whole($place.z)))",
       [halves](const auto& in) {
-        return halves(lattice_hash<double>(static_cast<int>(std::floor(in.place.x)),
-                                           static_cast<int>(std::floor(in.place.y)),
-                                           static_cast<int>(std::floor(in.place.z))));
+        using T = std::decay_t<decltype(in.fade)>;
+        const auto whole = [](T v) { return to_index(min(max(std::floor(v), T(-5e8)), T(5e8))); };
+        return halves(lattice_hash<T>(whole(in.place.x), whole(in.place.y), whole(in.place.z)));
       },
       [](const Exact&) {
         return std::array{0.0, 0.0};
@@ -302,6 +351,7 @@ void add_noise_rows(std::vector<Row>& rows) {
                           relative * std::abs(n[3])};
       }));
   rows.back().nan = NanPolicy::may_vanish; // its results saturate
+  add_octaves(rows);
   add_sums(rows);
 }
 

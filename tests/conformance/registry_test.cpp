@@ -68,6 +68,11 @@ TEST(Registry, EveryFunctionOfTheCoreHasACase) {
     EXPECT_TRUE(mentions(calls, name)) << name << " has no case";
 }
 
+/// Functions of fragment shaders: others with dFdx of an argument in place of a derivative.
+bool takes_derivatives(const std::string& name) {
+  return name == "make_frame_at" || name == "tangent_basis_at" || name == "make_frame_at_two_sided";
+}
+
 TEST(Registry, EveryFunctionOfALibraryHasACase) {
   for (const Language language : languages) {
     std::string calls;
@@ -75,8 +80,10 @@ TEST(Registry, EveryFunctionOfALibraryHasACase) {
     for (const Row& row : rows()) all.push_back(&row);
     // What is left of the shader behind the library.
     calls = shader_text(language, all).substr(library_text(language).size());
-    for (const std::string& name : functions_of_library(language))
-      EXPECT_TRUE(mentions(calls, name))
+    const auto names = functions_of_library(language);
+    EXPECT_GE(names.size(), 80u) << "the library is no longer read as it is written";
+    for (const std::string& name : names)
+      EXPECT_TRUE(takes_derivatives(name) || mentions(calls, name))
           << "surfgrad_" << name << " of " << name_of(language) << " has no case";
   }
 }

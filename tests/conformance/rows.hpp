@@ -5,7 +5,6 @@
 #include "conformance/inputs.hpp"
 
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -24,12 +23,12 @@ struct Row {
   /// One statement in the words that the three languages share (their harness files define put...): the
   /// library's functions by their GLSL names, inputs as $name.
   std::string call;
-  /// WGSL does not overload: the same where its names differ.
-  std::map<std::string, std::string> wgsl_names;
 
   std::function<std::vector<double>(const ShaderInputs<float>&)> in_float;   ///< the C++ core
   std::function<std::vector<double>(const ShaderInputs<double>&)> in_double; ///< the truth
   NanPolicy nan = NanPolicy::kept;
+  /// Products of vectors overflow between the lengths that shaders are made for, up to 1e18, and the largest.
+  bool overflows = false;
   /// How far a shader may be from the truth, in eps, component by component.
   std::function<std::vector<double>(const ShaderInputs<double>&)> bound;
 
@@ -50,6 +49,9 @@ inline constexpr double vulkan_rounding = 5;
 void add_listing_rows(std::vector<Row>& rows);
 void add_shape_rows(std::vector<Row>& rows);
 void add_noise_rows(std::vector<Row>& rows);
+
+/// A row's call for WGSL, which neither overloads nor leaves arguments out.
+[[nodiscard]] std::string wgsl_call(const Row& row);
 
 /// Vulkan's own errors of the functions that it does not round correctly, in eps.
 [[nodiscard]] double vulkan_log2_error(double log2_of_a);
