@@ -415,6 +415,14 @@ vec3 surfgrad_scale_bump(float scale, vec3 surfgrad) { return scale * surfgrad; 
 
 // Resolve -------------------------------------------------------------------------------------------------
 
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component keeps
+// the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than 1e-15. Any
+// normal but zero leaves the inverse, at most 1e19, as it is.
+float surfgrad_detail_resolve_scale(vec3 normal, vec3 v) {
+  vec4 guarded = vec4(v, SURFGRAD_DETAIL_SHORTEST);
+  return min(inversesqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
+}
+
 // The perturbed normal: normalize(normal - resolve_sign * surfgrad).
 //
 // surfgrad    the weighted sum of all surface gradients of the pass
@@ -423,7 +431,7 @@ vec3 surfgrad_scale_bump(float scale, vec3 surfgrad) { return scale * surfgrad; 
 // source      Mikkelsen 2019, listing 1, equation 1
 vec3 surfgrad_resolve_normal(SurfgradFrame frame, vec3 surfgrad) {
   vec3 v = frame.normal - frame.resolve_sign * surfgrad;
-  return (surfgrad_max_abs(frame.normal) == 0.0 ? 0.0 : surfgrad_detail_inverse_length(v)) * v;
+  return surfgrad_detail_resolve_scale(frame.normal, v) * v;
 }
 
 // The perturbed normal of a surface that is bumped through its vertex tangents alone: the cheapest way, with
@@ -437,8 +445,7 @@ vec3 surfgrad_resolve_normal(SurfgradFrame frame, vec3 surfgrad) {
 // degenerate       a zero normal gives zero
 vec3 surfgrad_resolve_mikktspace(vec3 normal, vec3 tangent, float sign, vec2 deriv) {
   vec3 v = normal - deriv.x * tangent - (sign > 0.0 ? deriv.y : -deriv.y) * cross(normal, tangent);
-  float inverse = inversesqrt(max(dot(v, v), SURFGRAD_LEAST));
-  return (surfgrad_max_abs(normal) == 0.0 ? 0.0 : inverse) * v;
+  return surfgrad_detail_resolve_scale(normal, v) * v;
 }
 
 // Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-resolved,

@@ -425,6 +425,14 @@ float3 surfgrad_scale_bump(float scale, float3 surfgrad) { return scale * surfgr
 
 // Resolve -------------------------------------------------------------------------------------------------
 
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component keeps
+// the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than 1e-15. Any
+// normal but zero leaves the inverse, at most 1e19, as it is.
+float surfgrad_detail_resolve_scale(float3 normal, float3 v) {
+  float4 guarded = float4(v, SURFGRAD_DETAIL_SHORTEST);
+  return min(rsqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
+}
+
 // The perturbed normal: normalize(normal - resolve_sign * surfgrad).
 //
 // surfgrad    the weighted sum of all surface gradients of the pass
@@ -433,7 +441,7 @@ float3 surfgrad_scale_bump(float scale, float3 surfgrad) { return scale * surfgr
 // source      Mikkelsen 2019, listing 1, equation 1
 float3 surfgrad_resolve_normal(SurfgradFrame frame, float3 surfgrad) {
   float3 v = frame.normal - frame.resolve_sign * surfgrad;
-  return (surfgrad_max_abs(frame.normal) == 0.0 ? 0.0 : surfgrad_detail_inverse_length(v)) * v;
+  return surfgrad_detail_resolve_scale(frame.normal, v) * v;
 }
 
 // The perturbed normal of a surface that is bumped through its vertex tangents alone: the cheapest way, with
@@ -447,8 +455,7 @@ float3 surfgrad_resolve_normal(SurfgradFrame frame, float3 surfgrad) {
 // degenerate       a zero normal gives zero
 float3 surfgrad_resolve_mikktspace(float3 normal, float3 tangent, float sign, float2 deriv) {
   float3 v = normal - deriv.x * tangent - (sign > 0.0 ? deriv.y : -deriv.y) * cross(normal, tangent);
-  float inverse = rsqrt(max(dot(v, v), SURFGRAD_LEAST));
-  return (surfgrad_max_abs(normal) == 0.0 ? 0.0 : inverse) * v;
+  return surfgrad_detail_resolve_scale(normal, v) * v;
 }
 
 // Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-resolved,

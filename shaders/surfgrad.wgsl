@@ -436,6 +436,14 @@ fn surfgrad_scale_bump(scale: f32, surfgrad: vec3f) -> vec3f { return scale * su
 
 // Resolve -------------------------------------------------------------------------------------------------
 
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component keeps
+// the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than 1e-15. Any
+// normal but zero leaves the inverse, at most 1e19, as it is.
+fn surfgrad_detail_resolve_scale(normal: vec3f, v: vec3f) -> f32 {
+  let guarded = vec4f(v, SURFGRAD_DETAIL_SHORTEST);
+  return min(inverseSqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
+}
+
 // The perturbed normal: normalize(normal - resolve_sign * surfgrad).
 //
 // surfgrad    the weighted sum of all surface gradients of the pass
@@ -444,7 +452,7 @@ fn surfgrad_scale_bump(scale: f32, surfgrad: vec3f) -> vec3f { return scale * su
 // source      Mikkelsen 2019, listing 1, equation 1
 fn surfgrad_resolve_normal(frame: SurfgradFrame, surfgrad: vec3f) -> vec3f {
   let v = frame.normal - frame.resolve_sign * surfgrad;
-  return select(surfgrad_detail_inverse_length(v), 0.0, surfgrad_max_abs(frame.normal) == 0.0) * v;
+  return surfgrad_detail_resolve_scale(frame.normal, v) * v;
 }
 
 // The perturbed normal of a surface that is bumped through its vertex tangents alone: the cheapest way, with
@@ -458,8 +466,7 @@ fn surfgrad_resolve_normal(frame: SurfgradFrame, surfgrad: vec3f) -> vec3f {
 // degenerate       a zero normal gives zero
 fn surfgrad_resolve_mikktspace(normal: vec3f, tangent: vec3f, sign: f32, deriv: vec2f) -> vec3f {
   let v = normal - deriv.x * tangent - select(-deriv.y, deriv.y, sign > 0.0) * cross(normal, tangent);
-  let inverse = inverseSqrt(max(dot(v, v), SURFGRAD_LEAST));
-  return select(inverse, 0.0, surfgrad_max_abs(normal) == 0.0) * v;
+  return surfgrad_detail_resolve_scale(normal, v) * v;
 }
 
 // Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-resolved,
