@@ -1,14 +1,14 @@
 // Reoriented normal mapping (Barré-Brisebois and Hill 2012): the detail's normal turned by the shortest
-// rotation from +z to the base's. Both unit, as maps hold them; so is the result.
+// rotation from +z to the base's; both unit, as maps hold them. Written as it is published.
 vec3 reoriented(vec3 base, vec3 detail) {
   vec3 t = base + vec3(0.0, 0.0, 1.0);
   vec3 u = detail * vec3(-1.0, -1.0, 1.0);
-  return t * (dot(t, u) / t.z) - u;
+  return t * dot(t, u) / t.z - u;
 }
 
-// The same times t.z, for whoever normalises next: without the division.
-vec3 reoriented_any_length(vec3 base, vec3 detail) {
+// The same, grouped so that it costs least: no compiler may do that by itself.
+vec3 reoriented_regrouped(vec3 base, vec3 detail) {
   vec3 t = base + vec3(0.0, 0.0, 1.0);
   vec3 u = detail * vec3(-1.0, -1.0, 1.0);
-  return t * dot(t, u) - u * t.z;
+  return t * (dot(t, u) / t.z) - u;
 }

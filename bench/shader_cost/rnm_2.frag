@@ -4,7 +4,7 @@
 #include "rnm.glsl"
 
 void main() {
-  vec3 m = reoriented_any_length(decoded(texture(map, st)), decoded(texture(map_2, st)));
+  vec3 m = reoriented(decoded(texture(map, st)), decoded(texture(map_2, st)));
   vec3 bitangent = tangent.w * cross(normal, tangent.xyz);
   result = vec4(normalize(m.x * tangent.xyz + m.y * bitangent + m.z * normal), 1.0);
 }

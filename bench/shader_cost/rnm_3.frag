@@ -5,7 +5,7 @@
 
 void main() {
   vec3 m = reoriented(decoded(texture(map, st)), decoded(texture(map_2, st)));
-  m = reoriented_any_length(m, decoded(texture(map_3, st)));
+  m = reoriented(m, decoded(texture(map_3, st)));
   vec3 bitangent = tangent.w * cross(normal, tangent.xyz);
   result = vec4(normalize(m.x * tangent.xyz + m.y * bitangent + m.z * normal), 1.0);
 }
