@@ -996,17 +996,18 @@ float2 surfgrad_detail_signs(SurfgradTriplanarConvention c) {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before the power, so no k
-//             underflows
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could underflow:
+//             any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 float3 surfgrad_triplanar_weights(float3 normal, float k) {
-  float3 w = max(abs(normal) - 0.2, 0.0);
-  float largest = surfgrad_max_abs(w);
-  // A unit normal has a component of at least 1/sqrt(3) > 0.2; only the zero normal has none.
-  if (largest == 0.0) return float3(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0);
-  w *= surfgrad_reciprocal_or_zero(largest);
-  float3 p = float3(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
-  return p / (p.x + p.y + p.z);
+  float3 w = saturate(abs(normal) - 0.2); // below 1 for any unit normal: hardware saturates for nothing
+  float3 p = w * w * w;
+  if (k != 3.0) {
+    w *= surfgrad_reciprocal_or_zero(surfgrad_max_abs(w));
+    p = float3(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
+  }
+  float sum = p.x + p.y + p.z;
+  return sum == 0.0 ? float3(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0) : p / sum;
 }
 float3 surfgrad_triplanar_weights(float3 normal) { return surfgrad_triplanar_weights(normal, 3.0); }
 

@@ -987,17 +987,19 @@ fn surfgrad_detail_signs(c: SurfgradTriplanarConvention) -> vec2f {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before the power, so no k
-//             underflows
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could underflow:
+//             any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 fn surfgrad_triplanar_weights(normal: vec3f, k: f32) -> vec3f {
-  var w = max(abs(normal) - 0.2, vec3f(0.0));
-  let largest = surfgrad_max_abs(w);
-  // A unit normal has a component of at least 1/sqrt(3) > 0.2; only the zero normal has none.
-  if (largest == 0.0) { return vec3f(1.0 / 3.0); }
-  w *= surfgrad_reciprocal_or_zero(largest);
-  let p = vec3f(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
-  return p / (p.x + p.y + p.z);
+  var w = saturate(abs(normal) - 0.2); // below 1 for any unit normal: hardware saturates for nothing
+  var p = w * w * w;
+  if (k != 3.0) {
+    w *= surfgrad_reciprocal_or_zero(surfgrad_max_abs(w));
+    p = vec3f(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
+  }
+  let sum = p.x + p.y + p.z;
+  if (sum == 0.0) { return vec3f(1.0 / 3.0); }
+  return p / sum;
 }
 
 // Texture coordinates that a convention samples at position p (in texture units).
