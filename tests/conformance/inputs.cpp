@@ -216,6 +216,14 @@ std::vector<EdgeCase> edge_cases(const std::vector<const Field*>& used) {
   };
   for (const Field* f : used) {
     if (f->name == "frame") add_frames(cases);
+    // Bumps that take the whole normal away: nothing is left to normalise.
+    if (f->name == "gradient" || f->name == "raw_tangent") {
+      EdgeCase made{plain_inputs(), Edge::ordinary, std::string(f->name) + " is the normal"};
+      made.in.core.gradient = made.in.core.frame.normal;
+      made.in.core.raw_normal = made.in.core.raw_tangent = {0, 0, 8};
+      made.in.core.deriv = {1, 0};
+      cases.push_back(made);
+    }
     if (f->name == "direction" || f->name == "rotation" || f->name == "weights") {
       EdgeCase made{plain_inputs(), Edge::ordinary, std::string(f->name) + " turned"};
       float* v = values(made.in, *f);
