@@ -415,9 +415,9 @@ vec3 surfgrad_scale_bump(float scale, vec3 surfgrad) { return scale * surfgrad; 
 
 // Resolve -------------------------------------------------------------------------------------------------
 
-// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component keeps
-// the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than 1e-15. Any
-// normal but zero leaves the inverse, at most 1e19, as it is.
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component
+// keeps the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than
+// 1e-15. Any normal but zero leaves the inverse, at most 1e19, as it is.
 float surfgrad_detail_resolve_scale(vec3 normal, vec3 v) {
   vec4 guarded = vec4(v, SURFGRAD_DETAIL_SHORTEST);
   return min(inversesqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
@@ -966,8 +966,8 @@ vec2 surfgrad_detail_signs(SurfgradTriplanarConvention c) {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could underflow:
-//             any but the third, which is a product as well and by far cheaper
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could
+//             underflow: any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 vec3 surfgrad_triplanar_weights(vec3 normal, float k) {
   vec3 w = clamp(abs(normal) - 0.2, 0.0, 1.0); // below 1 for any unit normal: hardware saturates for nothing

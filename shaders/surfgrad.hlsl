@@ -425,9 +425,9 @@ float3 surfgrad_scale_bump(float scale, float3 surfgrad) { return scale * surfgr
 
 // Resolve -------------------------------------------------------------------------------------------------
 
-// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component keeps
-// the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than 1e-15. Any
-// normal but zero leaves the inverse, at most 1e19, as it is.
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component
+// keeps the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than
+// 1e-15. Any normal but zero leaves the inverse, at most 1e19, as it is.
 float surfgrad_detail_resolve_scale(float3 normal, float3 v) {
   float4 guarded = float4(v, SURFGRAD_DETAIL_SHORTEST);
   return min(rsqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
@@ -996,8 +996,8 @@ float2 surfgrad_detail_signs(SurfgradTriplanarConvention c) {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could underflow:
-//             any but the third, which is a product as well and by far cheaper
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could
+//             underflow: any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 float3 surfgrad_triplanar_weights(float3 normal, float k) {
   float3 w = saturate(abs(normal) - 0.2); // below 1 for any unit normal: hardware saturates for nothing

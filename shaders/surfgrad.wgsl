@@ -436,9 +436,9 @@ fn surfgrad_scale_bump(scale: f32, surfgrad: vec3f) -> vec3f { return scale * su
 
 // Resolve -------------------------------------------------------------------------------------------------
 
-// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component keeps
-// the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than 1e-15. Any
-// normal but zero leaves the inverse, at most 1e19, as it is.
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component
+// keeps the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than
+// 1e-15. Any normal but zero leaves the inverse, at most 1e19, as it is.
 fn surfgrad_detail_resolve_scale(normal: vec3f, v: vec3f) -> f32 {
   let guarded = vec4f(v, SURFGRAD_DETAIL_SHORTEST);
   return min(inverseSqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
@@ -987,8 +987,8 @@ fn surfgrad_detail_signs(c: SurfgradTriplanarConvention) -> vec2f {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could underflow:
-//             any but the third, which is a product as well and by far cheaper
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could
+//             underflow: any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 fn surfgrad_triplanar_weights(normal: vec3f, k: f32) -> vec3f {
   var w = saturate(abs(normal) - 0.2); // below 1 for any unit normal: hardware saturates for nothing

@@ -12,7 +12,8 @@ struct Decal {
 layout(set = 0, binding = 3) uniform Decals { Decal decals[4]; };
 
 vec3 gradient_of(SurfgradFrame frame, Decal decal) {
-  SurfgradDecalProjection at = surfgrad_box_decal(decal.frame, position, decal.half_size.xyz, decal.half_size.w);
+  SurfgradDecalProjection at =
+      surfgrad_box_decal(decal.frame, position, decal.half_size.xyz, decal.half_size.w);
   if (!at.inside) return vec3(0.0);
   SurfgradTextureDerivatives d =
       surfgrad_projected_derivatives(at.grad_s, at.grad_t, frame.dp_dx, frame.dp_dy);
