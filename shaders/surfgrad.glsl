@@ -425,6 +425,14 @@ vec3 surfgrad_scale_bump(float scale, vec3 surfgrad) { return scale * surfgrad; 
 
 // Resolve -------------------------------------------------------------------------------------------------
 
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component
+// keeps the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than
+// 1e-15. Any normal but zero leaves the inverse, at most 1e19, as it is.
+float surfgrad_detail_resolve_scale(vec3 normal, vec3 v) {
+  vec4 guarded = vec4(v, SURFGRAD_DETAIL_SHORTEST);
+  return min(inversesqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
+}
+
 // The perturbed normal: normalize(normal - resolve_sign * surfgrad).
 //
 // surfgrad    the weighted sum of all surface gradients of the pass
@@ -433,7 +441,7 @@ vec3 surfgrad_scale_bump(float scale, vec3 surfgrad) { return scale * surfgrad; 
 // source      Mikkelsen 2019, listing 1, equation 1
 vec3 surfgrad_resolve_normal(SurfgradFrame frame, vec3 surfgrad) {
   vec3 v = frame.normal - frame.resolve_sign * surfgrad;
-  return (surfgrad_max_abs(frame.normal) == 0.0 ? 0.0 : surfgrad_detail_inverse_length(v)) * v;
+  return surfgrad_detail_resolve_scale(frame.normal, v) * v;
 }
 
 // The perturbed normal of a surface that is bumped through its vertex tangents alone: the cheapest way, with
@@ -447,8 +455,7 @@ vec3 surfgrad_resolve_normal(SurfgradFrame frame, vec3 surfgrad) {
 // degenerate       a zero normal gives zero
 vec3 surfgrad_resolve_mikktspace(vec3 normal, vec3 tangent, float sign, vec2 deriv) {
   vec3 v = normal - deriv.x * tangent - (sign > 0.0 ? deriv.y : -deriv.y) * cross(normal, tangent);
-  float inverse = inversesqrt(max(dot(v, v), SURFGRAD_LEAST));
-  return (surfgrad_max_abs(normal) == 0.0 ? 0.0 : inverse) * v;
+  return surfgrad_detail_resolve_scale(normal, v) * v;
 }
 
 // Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-resolved,
@@ -985,17 +992,18 @@ vec2 surfgrad_detail_signs(SurfgradTriplanarConvention c) {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before the power, so no k
-//             underflows
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could
+//             underflow: any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 vec3 surfgrad_triplanar_weights(vec3 normal, float k) {
-  vec3 w = max(abs(normal) - 0.2, 0.0);
-  float largest = surfgrad_max_abs(w);
-  // A unit normal has a component of at least 1/sqrt(3) > 0.2; only the zero normal has none.
-  if (largest == 0.0) return vec3(1.0 / 3.0);
-  w *= surfgrad_reciprocal_or_zero(largest);
-  vec3 p = vec3(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
-  return p / (p.x + p.y + p.z);
+  vec3 w = clamp(abs(normal) - 0.2, 0.0, 1.0); // below 1 for any unit normal: hardware saturates for nothing
+  vec3 p = w * w * w;
+  if (k != 3.0) {
+    w *= surfgrad_reciprocal_or_zero(surfgrad_max_abs(w));
+    p = vec3(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
+  }
+  float sum = p.x + p.y + p.z;
+  return sum == 0.0 ? vec3(1.0 / 3.0) : p / sum;
 }
 vec3 surfgrad_triplanar_weights(vec3 normal) { return surfgrad_triplanar_weights(normal, 3.0); }
 

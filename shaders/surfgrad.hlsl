@@ -429,6 +429,14 @@ float3 surfgrad_scale_bump(float scale, float3 surfgrad) { return scale * surfgr
 
 // Resolve -------------------------------------------------------------------------------------------------
 
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component
+// keeps the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than
+// 1e-15. Any normal but zero leaves the inverse, at most 1e19, as it is.
+float surfgrad_detail_resolve_scale(float3 normal, float3 v) {
+  float4 guarded = float4(v, SURFGRAD_DETAIL_SHORTEST);
+  return min(rsqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
+}
+
 // The perturbed normal: normalize(normal - resolve_sign * surfgrad).
 //
 // surfgrad    the weighted sum of all surface gradients of the pass
@@ -437,7 +445,7 @@ float3 surfgrad_scale_bump(float scale, float3 surfgrad) { return scale * surfgr
 // source      Mikkelsen 2019, listing 1, equation 1
 float3 surfgrad_resolve_normal(SurfgradFrame frame, float3 surfgrad) {
   float3 v = frame.normal - frame.resolve_sign * surfgrad;
-  return (surfgrad_max_abs(frame.normal) == 0.0 ? 0.0 : surfgrad_detail_inverse_length(v)) * v;
+  return surfgrad_detail_resolve_scale(frame.normal, v) * v;
 }
 
 // The perturbed normal of a surface that is bumped through its vertex tangents alone: the cheapest way, with
@@ -451,8 +459,7 @@ float3 surfgrad_resolve_normal(SurfgradFrame frame, float3 surfgrad) {
 // degenerate       a zero normal gives zero
 float3 surfgrad_resolve_mikktspace(float3 normal, float3 tangent, float sign, float2 deriv) {
   float3 v = normal - deriv.x * tangent - (sign > 0.0 ? deriv.y : -deriv.y) * cross(normal, tangent);
-  float inverse = rsqrt(max(dot(v, v), SURFGRAD_LEAST));
-  return (surfgrad_max_abs(normal) == 0.0 ? 0.0 : inverse) * v;
+  return surfgrad_detail_resolve_scale(normal, v) * v;
 }
 
 // Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-resolved,
@@ -994,17 +1001,18 @@ float2 surfgrad_detail_signs(SurfgradTriplanarConvention c) {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before the power, so no k
-//             underflows
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could
+//             underflow: any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 float3 surfgrad_triplanar_weights(float3 normal, float k) {
-  float3 w = max(abs(normal) - 0.2, 0.0);
-  float largest = surfgrad_max_abs(w);
-  // A unit normal has a component of at least 1/sqrt(3) > 0.2; only the zero normal has none.
-  if (largest == 0.0) return float3(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0);
-  w *= surfgrad_reciprocal_or_zero(largest);
-  float3 p = float3(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
-  return p / (p.x + p.y + p.z);
+  float3 w = saturate(abs(normal) - 0.2); // below 1 for any unit normal: hardware saturates for nothing
+  float3 p = w * w * w;
+  if (k != 3.0) {
+    w *= surfgrad_reciprocal_or_zero(surfgrad_max_abs(w));
+    p = float3(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
+  }
+  float sum = p.x + p.y + p.z;
+  return sum == 0.0 ? float3(1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0) : p / sum;
 }
 float3 surfgrad_triplanar_weights(float3 normal) { return surfgrad_triplanar_weights(normal, 3.0); }
 

@@ -440,6 +440,14 @@ fn surfgrad_scale_bump(scale: f32, surfgrad: vec3f) -> vec3f { return scale * su
 
 // Resolve -------------------------------------------------------------------------------------------------
 
+// What the v of a resolve is scaled by: 1 / |v|, or 0 where the base normal is zero. The fourth component
+// keeps the root from zero and costs nothing, being one more term of a sum; it counts in a v shorter than
+// 1e-15. Any normal but zero leaves the inverse, at most 1e19, as it is.
+fn surfgrad_detail_resolve_scale(normal: vec3f, v: vec3f) -> f32 {
+  let guarded = vec4f(v, SURFGRAD_DETAIL_SHORTEST);
+  return min(inverseSqrt(dot(guarded, guarded)), 1e38 * surfgrad_max_abs(normal));
+}
+
 // The perturbed normal: normalize(normal - resolve_sign * surfgrad).
 //
 // surfgrad    the weighted sum of all surface gradients of the pass
@@ -448,7 +456,7 @@ fn surfgrad_scale_bump(scale: f32, surfgrad: vec3f) -> vec3f { return scale * su
 // source      Mikkelsen 2019, listing 1, equation 1
 fn surfgrad_resolve_normal(frame: SurfgradFrame, surfgrad: vec3f) -> vec3f {
   let v = frame.normal - frame.resolve_sign * surfgrad;
-  return select(surfgrad_detail_inverse_length(v), 0.0, surfgrad_max_abs(frame.normal) == 0.0) * v;
+  return surfgrad_detail_resolve_scale(frame.normal, v) * v;
 }
 
 // The perturbed normal of a surface that is bumped through its vertex tangents alone: the cheapest way, with
@@ -462,8 +470,7 @@ fn surfgrad_resolve_normal(frame: SurfgradFrame, surfgrad: vec3f) -> vec3f {
 // degenerate       a zero normal gives zero
 fn surfgrad_resolve_mikktspace(normal: vec3f, tangent: vec3f, sign: f32, deriv: vec2f) -> vec3f {
   let v = normal - deriv.x * tangent - select(-deriv.y, deriv.y, sign > 0.0) * cross(normal, tangent);
-  let inverse = inverseSqrt(max(dot(v, v), SURFGRAD_LEAST));
-  return select(inverse, 0.0, surfgrad_max_abs(normal) == 0.0) * v;
+  return surfgrad_detail_resolve_scale(normal, v) * v;
 }
 
 // Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-resolved,
@@ -985,17 +992,19 @@ fn surfgrad_detail_signs(c: SurfgradTriplanarConvention) -> vec2f {
 //
 // normal      unit base normal
 // k           sharpness, positive; 3 in the listing
-// degenerate  zero normal gives 1/3 each. The largest term is divided out before the power, so no k
-//             underflows
+// degenerate  zero normal gives 1/3 each. The largest term is divided out before a power that could
+//             underflow: any but the third, which is a product as well and by far cheaper
 // source      Mikkelsen 2019, listing 14
 fn surfgrad_triplanar_weights(normal: vec3f, k: f32) -> vec3f {
-  var w = max(abs(normal) - 0.2, vec3f(0.0));
-  let largest = surfgrad_max_abs(w);
-  // A unit normal has a component of at least 1/sqrt(3) > 0.2; only the zero normal has none.
-  if (largest == 0.0) { return vec3f(1.0 / 3.0); }
-  w *= surfgrad_reciprocal_or_zero(largest);
-  let p = vec3f(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
-  return p / (p.x + p.y + p.z);
+  var w = saturate(abs(normal) - 0.2); // below 1 for any unit normal: hardware saturates for nothing
+  var p = w * w * w;
+  if (k != 3.0) {
+    w *= surfgrad_reciprocal_or_zero(surfgrad_max_abs(w));
+    p = vec3f(surfgrad_pow(w.x, k), surfgrad_pow(w.y, k), surfgrad_pow(w.z, k));
+  }
+  let sum = p.x + p.y + p.z;
+  if (sum == 0.0) { return vec3f(1.0 / 3.0); }
+  return p / sum;
 }
 
 // Texture coordinates that a convention samples at position p (in texture units).

@@ -4,6 +4,7 @@
 /// reference departs from the paper as printed, a named map states how.
 
 #include "support/core_functions.hpp"
+#include "support/reference_vectors.hpp"
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -17,20 +18,6 @@
 
 namespace surfgrad::test {
 namespace {
-
-constexpr int width = 512;
-constexpr int height = 16;
-constexpr int inputs = 44;
-constexpr int outputs = 64;
-
-std::vector<float> read_floats(const char* name) {
-  std::ifstream file(std::string(SURFGRAD_SHARED_DIR "/vectors/") + name, std::ios::binary);
-  std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  std::vector<float> values(bytes.size() / sizeof(float));
-  // An absent file is no floats, and memcpy takes no null pointer even for none.
-  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
-  return values;
-}
 
 /// The reference's texture origin is upper left: the y of its derivatives is minus listing 4's.
 template <class T>
@@ -48,117 +35,9 @@ vec2<T> magnitude_dot(vec2<T> texture_direction, T along) {
 /// relative to the magnitudes involved. They differ where the reference's clamp takes effect only.
 bool reference_clamp(double divisor, double clamp) { return std::abs(divisor) < clamp; }
 
-/// One pixel's inputs, its differences within the quad included.
 template <class T>
-struct Pixel {
-  vec3<T> position, normal, tangent;
-  T sign;
-  vec3<T> tangent_normal, perturbed, gradient;
-  vec2<T> deriv_x, deriv_y, deriv_z;
-  vec3<T> direction;
-  T bump_scale;
-  vec2<T> offset, height_deriv;
-  vec3<T> screen_position;
-  T x, y;
-  vec3<T> dp_dx, dp_dy;
-  vec2<T> dst_dx, dst_dy;
-};
-
-class Quads {
- public:
-  Quads()
-      : in_(read_floats("quads_in.f32")), out_(read_floats("quads_out.f32")),
-        matrix_(read_floats("world_from_screen.f32")) {}
-  [[nodiscard]] bool complete() const {
-    return in_.size() == std::size_t{width} * height * inputs &&
-           out_.size() == std::size_t{width} * height * outputs && matrix_.size() == 16;
-  }
-  [[nodiscard]] const float* expected(int x, int y) const { return &out_[offset(x, y) * outputs]; }
-
-  template <class T>
-  [[nodiscard]] mat4<T> matrix() const {
-    const auto row = [&](std::size_t r) {
-      return vec4<T>{T(matrix_[4 * r]), T(matrix_[4 * r + 1]), T(matrix_[4 * r + 2]), T(matrix_[4 * r + 3])};
-    };
-    return {row(0), row(1), row(2), row(3)};
-  }
-  template <class T>
-  [[nodiscard]] Pixel<T> pixel(int x, int y) const {
-    const float* p = &in_[offset(x, y) * inputs];
-    const auto v3 = [&](int i) { return vec3<T>{T(p[i]), T(p[i + 1]), T(p[i + 2])}; };
-    const auto v2 = [&](int i) { return vec2<T>{T(p[i]), T(p[i + 1])}; };
-    // ddx_fine and ddy_fine: differences in float, on the pixel's own row and column of the quad.
-    const float* left = &in_[offset(x & ~1, y) * inputs];
-    const float* right = &in_[offset(x | 1, y) * inputs];
-    const float* upper = &in_[offset(x, y & ~1) * inputs];
-    const float* lower = &in_[offset(x, y | 1) * inputs];
-    const auto dx = [&](int i) { return T(right[i] - left[i]); };
-    const auto dy = [&](int i) { return T(lower[i] - upper[i]); };
-    return {v3(0),
-            v3(3),
-            v3(6),
-            T(p[9]),
-            v3(12),
-            v3(15),
-            v3(18),
-            v2(21),
-            v2(23),
-            v2(25),
-            v3(27),
-            T(p[30]),
-            v2(31),
-            v2(33),
-            v3(35),
-            T(p[38]),
-            T(p[39]),
-            {dx(0), dx(1), dx(2)},
-            {dy(0), dy(1), dy(2)},
-            {dx(10), dx(11)},
-            {dy(10), dy(11)}};
-  }
-
- private:
-  static std::size_t offset(int x, int y) {
-    return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-  }
-  std::vector<float> in_, out_, matrix_;
-};
-
-/// One group of columns: our result, and the error that both sides may have.
-struct Group {
-  const char* name;
-  int first, count;
-  double reference_error; ///< the README's: relative to the longest component of the group
-};
-constexpr Group groups[] = {
-    {"sigma_x", 0, 3, 2e-7},
-    {"sigma_y", 3, 3, 2e-7},
-    {"flip_sign", 6, 1, 0},
-    {"normal", 7, 3, 2e-7},
-    {"mikktspace tangent", 10, 3, 2e-7},
-    {"mikktspace bitangent", 13, 3, 2e-7},
-    {"derivative_from_normal", 16, 2, 6e-8},
-    {"from_tbn, mikktspace", 18, 3, 3e-7},
-    {"tangent_basis tangent", 21, 3, 3e-7},
-    {"tangent_basis bitangent", 24, 3, 3e-7},
-    {"from_tbn, tangent_basis", 27, 3, 3e-7},
-    {"from_perturbed_normal", 30, 3, 2e-5},
-    {"from_texel_derivative", 33, 3, 7e-7},
-    {"from_height_derivative", 36, 3, 3e-7},
-    {"from_volume_gradient", 39, 3, 3e-5},
-    {"triplanar_weights", 42, 3, 4e-7},
-    {"from_triplanar", 45, 3, 6e-6},
-    {"project_to_texture_space", 48, 2, 2e-6},
-    {"project_to_texture_space, skipped", 50, 2, 2e-6},
-    {"surface_offset", 52, 3, 4e-7},
-    {"resolve_normal", 55, 3, 1e-6},
-    {"screen_derivatives dp_dx", 58, 3, 4e-4},
-    {"screen_derivatives dp_dy", 61, 3, 4e-4},
-};
-
-template <class T>
-std::array<T, outputs> evaluate(const Pixel<T>& p, const mat4<T>& world_from_screen) {
-  std::array<T, outputs> r;
+std::array<T, quad_outputs> evaluate(const Pixel<T>& p, const mat4<T>& world_from_screen) {
+  std::array<T, quad_outputs> r;
   const auto put3 = [&](int i, vec3<T> v) {
     r[i] = v.x;
     r[i + 1] = v.y;
@@ -206,7 +85,7 @@ std::array<T, outputs> evaluate(const Pixel<T>& p, const mat4<T>& world_from_scr
 }
 
 /// Our own error in eps for each group, from the documented bounds at this pixel.
-std::array<double, std::size(groups)> own_bounds(const Pixel<double>& p, const mat4<double>& matrix) {
+std::array<double, std::size(quad_groups)> own_bounds(const Pixel<double>& p, const mat4<double>& matrix) {
   CoreInputs<double> in{};
   in.frame = make_frame(p.normal, p.dp_dx, p.dp_dy);
   in.position = p.screen_position;
@@ -276,16 +155,16 @@ TEST(Vectors, EveryColumnAgreesInFloat) {
     GTEST_SKIP() << "no folder " SURFGRAD_SHARED_DIR "/vectors";
   ASSERT_TRUE(quads.complete()) << "the reference vectors are cut short";
   constexpr double eps = epsilon_v<float>;
-  std::array<double, std::size(groups)> worst_relative{};
-  std::array<double, std::size(groups)> worst_ratio{};
-  std::array<std::string, std::size(groups)> where;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  std::array<double, std::size(quad_groups)> worst_relative{};
+  std::array<double, std::size(quad_groups)> worst_ratio{};
+  std::array<std::string, std::size(quad_groups)> where;
+  for (int y = 0; y < quad_height; ++y) {
+    for (int x = 0; x < quad_width; ++x) {
       const auto got = evaluate(quads.pixel<float>(x, y), quads.matrix<float>());
       const auto own = own_bounds(quads.pixel<double>(x, y), quads.matrix<double>());
       const float* expected = quads.expected(x, y);
-      for (std::size_t k = 0; k < std::size(groups); ++k) {
-        const Group& g = groups[k];
+      for (std::size_t k = 0; k < std::size(quad_groups); ++k) {
+        const QuadGroup& g = quad_groups[k];
         double size = 0;
         double error = 0;
         for (int i = g.first; i < g.first + g.count; ++i) {
@@ -302,10 +181,10 @@ TEST(Vectors, EveryColumnAgreesInFloat) {
       }
     }
   }
-  for (std::size_t k = 0; k < std::size(groups); ++k) {
-    std::printf("  %-34s worst relative difference %.2e, error / bound %.3f\n", groups[k].name,
+  for (std::size_t k = 0; k < std::size(quad_groups); ++k) {
+    std::printf("  %-34s worst relative difference %.2e, error / bound %.3f\n", quad_groups[k].name,
                 worst_relative[k], worst_ratio[k]);
-    EXPECT_LE(worst_ratio[k], 1) << groups[k].name << " at " << where[k];
+    EXPECT_LE(worst_ratio[k], 1) << quad_groups[k].name << " at " << where[k];
   }
 }
 
@@ -316,10 +195,10 @@ TEST(Vectors, EveryColumnAgreesInDouble) {
   if (!std::filesystem::exists(SURFGRAD_SHARED_DIR "/vectors"))
     GTEST_SKIP() << "no folder " SURFGRAD_SHARED_DIR "/vectors";
   ASSERT_TRUE(quads.complete()) << "the reference vectors are cut short";
-  for (const Group& g : groups) {
+  for (const QuadGroup& g : quad_groups) {
     double worst = 0;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < quad_height; ++y) {
+      for (int x = 0; x < quad_width; ++x) {
         const auto got = evaluate(quads.pixel<double>(x, y), quads.matrix<double>());
         const float* expected = quads.expected(x, y);
         double size = 0;
@@ -343,8 +222,8 @@ TEST(Vectors, ConventionMapsAreNeededAndSuffice) {
   int turned = 0;
   int flipped = 0;
   int clamped = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < quad_height; ++y) {
+    for (int x = 0; x < quad_width; ++x) {
       const Pixel<double> p = quads.pixel<double>(x, y);
       const Frame<double> f = make_frame(p.normal, p.dp_dx, p.dp_dy);
       turned += dot(f.normal, p.direction) < 0;
@@ -356,7 +235,7 @@ TEST(Vectors, ConventionMapsAreNeededAndSuffice) {
     }
   }
   std::printf("  of %d pixels: green_flip matters in %d, magnitude_dot in %d, reference_clamp in %d\n",
-              width * height, flipped, turned, clamped);
+              quad_width * quad_height, flipped, turned, clamped);
   EXPECT_GT(turned, 100);
   EXPECT_GT(flipped, 100);
   EXPECT_EQ(clamped, 0); // no pixel is degenerate, so that no column needs an exception

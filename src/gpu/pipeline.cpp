@@ -1,0 +1,122 @@
+#include "gpu/pipeline.hpp"
+
+#include "gpu/result.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace surfgrad::gpu {
+
+ComputePipeline::ComputePipeline(const Device& device, const Spirv& shader, std::vector<Binding> bindings,
+                                 std::uint32_t constant_bytes)
+    : bindings_(std::move(bindings)) {
+  std::vector<VkDescriptorSetLayoutBinding> entries;
+  for (const Binding& binding : bindings_)
+    entries.push_back({binding.number, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+  VkDescriptorSetLayoutCreateInfo set{};
+  set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  set.bindingCount = static_cast<std::uint32_t>(entries.size());
+  set.pBindings = entries.data();
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  check(vkCreateDescriptorSetLayout(device.get(), &set, nullptr, &set_layout), "make a pipeline");
+  set_layout_ = {device.get(), set_layout, vkDestroyDescriptorSetLayout};
+
+  const VkPushConstantRange constants{VK_SHADER_STAGE_COMPUTE_BIT, 0, constant_bytes};
+  VkPipelineLayoutCreateInfo layout_info{};
+  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout_info.setLayoutCount = 1;
+  layout_info.pSetLayouts = &set_layout;
+  layout_info.pushConstantRangeCount = constant_bytes > 0 ? 1 : 0;
+  layout_info.pPushConstantRanges = &constants;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  check(vkCreatePipelineLayout(device.get(), &layout_info, nullptr, &layout), "make a pipeline");
+  layout_ = {device.get(), layout, vkDestroyPipelineLayout};
+
+  VkShaderModuleCreateInfo module_info{};
+  module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  module_info.codeSize = shader.size() * sizeof(std::uint32_t);
+  module_info.pCode = shader.data();
+  VkShaderModule made = VK_NULL_HANDLE;
+  check(vkCreateShaderModule(device.get(), &module_info, nullptr, &made), "load a shader");
+  const Handle<VkShaderModule> module(device.get(), made, vkDestroyShaderModule);
+
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module.get();
+  info.stage.pName = "main";
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(vkCreateComputePipelines(device.get(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "compile a shader on the device");
+  pipeline_ = {device.get(), pipeline, vkDestroyPipeline};
+}
+
+BoundResources::BoundResources(const Device& device, const ComputePipeline& pipeline)
+    : device_(device.get()), pipeline_(&pipeline) {
+  std::vector<VkDescriptorPoolSize> sizes;
+  for (const Binding& binding : pipeline.bindings()) sizes.push_back({binding.type, binding.count});
+  VkDescriptorPoolCreateInfo pool{};
+  pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  pool.maxSets = 1;
+  pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+  pool.pPoolSizes = sizes.data();
+  VkDescriptorPool made = VK_NULL_HANDLE;
+  check(vkCreateDescriptorPool(device_, &pool, nullptr, &made), "bind resources");
+  pool_ = {device_, made, vkDestroyDescriptorPool};
+  VkDescriptorSetLayout const layout = pipeline.set_layout();
+  VkDescriptorSetAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  allocate.descriptorPool = made;
+  allocate.descriptorSetCount = 1;
+  allocate.pSetLayouts = &layout;
+  check(vkAllocateDescriptorSets(device_, &allocate, &set_), "bind resources");
+}
+
+VkDescriptorType BoundResources::type_of(std::uint32_t binding) const {
+  const auto& bindings = pipeline_->bindings();
+  const auto found = std::find_if(bindings.begin(), bindings.end(),
+                                  [&](const Binding& each) { return each.number == binding; });
+  assert(found != bindings.end());
+  return found->type;
+}
+
+void BoundResources::bind(std::uint32_t binding, const Buffer& buffer) {
+  const VkDescriptorBufferInfo info{buffer.get(), 0, VK_WHOLE_SIZE};
+  VkWriteDescriptorSet write{};
+  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+  write.dstSet = set_;
+  write.dstBinding = binding;
+  write.descriptorCount = 1;
+  write.descriptorType = type_of(binding);
+  write.pBufferInfo = &info;
+  vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+}
+
+void BoundResources::bind(std::uint32_t binding, const Texture& texture, VkSampler sampler,
+                          std::uint32_t element) {
+  const VkDescriptorImageInfo info{sampler, texture.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  VkWriteDescriptorSet write{};
+  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+  write.dstSet = set_;
+  write.dstBinding = binding;
+  write.dstArrayElement = element;
+  write.descriptorCount = 1;
+  write.descriptorType = type_of(binding);
+  write.pImageInfo = &info;
+  vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+}
+
+void BoundResources::dispatch(VkCommandBuffer commands, std::uint32_t groups_x, std::uint32_t groups_y,
+                              std::span<const std::byte> constants) const {
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_->get());
+  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_->layout(), 0, 1, &set_, 0,
+                          nullptr);
+  if (!constants.empty())
+    vkCmdPushConstants(commands, pipeline_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       static_cast<std::uint32_t>(constants.size()), constants.data());
+  vkCmdDispatch(commands, groups_x, groups_y, 1);
+}
+
+} // namespace surfgrad::gpu

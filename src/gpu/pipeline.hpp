@@ -1,0 +1,64 @@
+#pragma once
+
+#include "gpu/buffer.hpp"
+#include "gpu/shader.hpp"
+#include "gpu/texture.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace surfgrad::gpu {
+
+/// What a shader calls set = 0, binding = `number`.
+struct Binding {
+  std::uint32_t number = 0;
+  VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  std::uint32_t count = 1; ///< of an array
+};
+
+/// A compute shader, ready to run.
+class ComputePipeline {
+ public:
+  /// constant_bytes  size of the shader's push constants; 0 without
+  /// throws          MachineError where the driver does not take the shader
+  ComputePipeline(const Device& device, const Spirv& shader, std::vector<Binding> bindings,
+                  std::uint32_t constant_bytes = 0);
+
+  [[nodiscard]] VkPipeline get() const { return pipeline_.get(); }
+  [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
+  [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.get(); }
+  [[nodiscard]] const std::vector<Binding>& bindings() const { return bindings_; }
+
+ private:
+  std::vector<Binding> bindings_;
+  Handle<VkDescriptorSetLayout> set_layout_;
+  Handle<VkPipelineLayout> layout_;
+  Handle<VkPipeline> pipeline_;
+};
+
+/// What a pipeline's bindings hold. All must be bound before a dispatch; what is bound must live through it.
+class BoundResources {
+ public:
+  BoundResources(const Device& device, const ComputePipeline& pipeline);
+
+  void bind(std::uint32_t binding, const Buffer& buffer);
+  /// A combined image and sampler.
+  void bind(std::uint32_t binding, const Texture& texture, VkSampler sampler, std::uint32_t element = 0);
+
+  /// Commands: runs the pipeline over `groups` workgroups.
+  ///
+  /// constants  as many bytes as the pipeline's push constants
+  void dispatch(VkCommandBuffer commands, std::uint32_t groups_x, std::uint32_t groups_y = 1,
+                std::span<const std::byte> constants = {}) const;
+
+ private:
+  [[nodiscard]] VkDescriptorType type_of(std::uint32_t binding) const;
+
+  VkDevice device_;
+  const ComputePipeline* pipeline_;
+  Handle<VkDescriptorPool> pool_;
+  VkDescriptorSet set_ = VK_NULL_HANDLE; // freed with the pool
+};
+
+} // namespace surfgrad::gpu

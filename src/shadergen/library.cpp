@@ -1,0 +1,132 @@
+#include "shadergen/library.hpp"
+
+#include "shadergen/tokens.hpp"
+
+#include <algorithm>
+#include <deque>
+
+namespace surfgrad::shadergen {
+namespace {
+
+using Kind = Token::Kind;
+
+/// Number of arguments between brackets at `open` and `close`.
+int argument_count(Tokens tokens, std::size_t open, std::size_t close) {
+  if (significant(tokens, open + 1) == close) return 0;
+  int count = 1;
+  for (std::size_t i = open + 1; i < close; ++i) {
+    if (tokens[i].text == "(" || tokens[i].text == "[" || tokens[i].text == "{") i = closing(tokens, i);
+    if (i < close && tokens[i].text == ",") ++count;
+  }
+  return count;
+}
+
+std::string_view between(Tokens tokens, std::size_t from, std::size_t to) {
+  if (from >= to) return {};
+  const char* first = tokens[from].text.data();
+  const Token& last = tokens[to - 1];
+  return {first, static_cast<std::size_t>(last.text.data() + last.text.size() - first)};
+}
+
+/// What a comment says before its first empty line: what the declaration is. The rest is the library's
+/// manual.
+std::string_view summary(std::string_view comment) {
+  const std::size_t end = comment.find("\n//\n");
+  return end == std::string_view::npos ? comment : comment.substr(0, end + 1);
+}
+
+} // namespace
+
+Library::Library(std::string_view text, Language language) {
+  const std::vector<Token> tokens = tokens_of(text);
+  std::size_t comment = tokens.size(); // where that of the next declaration begins
+  for (std::size_t i = 0; i < tokens.size();) {
+    const Token& t = tokens[i];
+    if (t.kind == Kind::space) {
+      if (t.text.find("\n\n") != std::string_view::npos) comment = tokens.size();
+      ++i;
+      continue;
+    }
+    if (t.kind == Kind::comment) {
+      comment = std::min(comment, i++);
+      continue;
+    }
+    if (t.kind == Kind::line) {
+      // Guards surround everything; any other condition is left out with what it holds.
+      int depth = t.text.starts_with("#ifdef") ? 1 : 0;
+      for (++i; depth > 0 && i < tokens.size(); ++i) {
+        if (tokens[i].text.starts_with("#if")) ++depth;
+        if (tokens[i].text.starts_with("#endif")) --depth;
+      }
+      comment = tokens.size();
+      continue;
+    }
+    // A declaration: up to its block's end, or to a semicolon.
+    Declaration d;
+    std::size_t end = i, last_word = i;
+    bool initialised = false;
+    for (; end < tokens.size() && tokens[end].text != ";"; ++end) {
+      const std::string_view mark = tokens[end].text;
+      if (mark == "{" && !initialised) break;
+      if (mark == "=" || (mark == ":" && t.text != "fn")) {
+        if (d.name.empty()) d.name = tokens[last_word].text;
+        initialised = initialised || mark == "=";
+      }
+      if (mark == "(" && !initialised && d.name.empty()) {
+        d.name = tokens[last_word].text;
+        const std::size_t close = closing(tokens, end);
+        if (language != Language::wgsl) d.arguments = argument_count(tokens, end, close);
+        end = close;
+      } else if (mark == "(" || mark == "{" || mark == "[") {
+        end = closing(tokens, end);
+      } else if (tokens[end].kind == Kind::word) {
+        last_word = end;
+      }
+    }
+    if (d.name.empty()) d.name = tokens[last_word].text;
+    if (end < tokens.size() && tokens[end].text == "{") {
+      end = closing(tokens, end);
+      if (end + 1 < tokens.size() && tokens[end + 1].text == ";") ++end;
+    }
+    ++end;
+    // A remark on the same line.
+    if (end + 1 < tokens.size() && tokens[end + 1].kind == Kind::comment &&
+        tokens[end].text.find('\n') == std::string_view::npos)
+      end += 2;
+    d.text = between(tokens, i, std::min(end, tokens.size()));
+    if (comment < i) d.comment = summary(between(tokens, comment, i));
+    declarations_.push_back(d);
+    comment = tokens.size();
+    i = end;
+  }
+}
+
+std::vector<const Library::Declaration*> Library::named_in(std::string_view code) const {
+  const std::vector<Token> tokens = tokens_of(code);
+  std::vector<const Declaration*> result;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].kind != Kind::word) continue;
+    const bool is_call = i + 1 < tokens.size() && tokens[i + 1].text == "(";
+    const int arguments = is_call ? argument_count(tokens, i + 1, closing(tokens, i + 1)) : -1;
+    for (const Declaration& d : declarations_)
+      if (d.name == tokens[i].text && (d.arguments < 0 || d.arguments == arguments)) result.push_back(&d);
+  }
+  return result;
+}
+
+std::string Library::used_by(std::string_view code) const {
+  std::set<const Declaration*> used;
+  const auto from_code = named_in(code);
+  std::deque<const Declaration*> waiting(from_code.begin(), from_code.end());
+  for (; !waiting.empty(); waiting.pop_front()) {
+    if (!used.insert(waiting.front()).second) continue;
+    const auto further = named_in(waiting.front()->text);
+    waiting.insert(waiting.end(), further.begin(), further.end());
+  }
+  std::string result;
+  for (const Declaration& d : declarations_)
+    if (used.contains(&d)) result += std::string(d.comment) + std::string(d.text) + "\n\n";
+  return result;
+}
+
+} // namespace surfgrad::shadergen

@@ -1,0 +1,43 @@
+#pragma once
+
+/// Tests on a Vulkan device: Mesa's software driver, exact and the same on every machine, unless
+/// VK_ICD_FILENAMES names another. Each fails on anything that the validation layer says.
+
+#include "gpu/device.hpp"
+
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace surfgrad::test {
+
+/// Before the first call of Vulkan.
+inline void choose_software_driver() {
+  setenv("VK_ICD_FILENAMES", SURFGRAD_SOFTWARE_VULKAN, 0);
+  // By default it filters textures with 8-bit weights and chooses levels for groups of pixels.
+  setenv("GALLIVM_PERF", "no_brilinear,no_rho_approx,no_quad_lod,no_aos_sampling", 0);
+  setenv("XDG_RUNTIME_DIR", "/tmp", 0); // else Mesa complains, though nothing is put there
+}
+
+class VulkanTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    choose_software_driver();
+    if (!shared) shared = std::make_unique<gpu::Device>(gpu::DeviceOptions{.validate = true});
+  }
+  static void TearDownTestSuite() { shared.reset(); }
+  static const gpu::Device& device() { return *shared; }
+
+  void SetUp() override { before_ = device().messages().size(); }
+  void TearDown() override {
+    const auto messages = device().messages();
+    for (std::size_t i = before_; i < messages.size(); ++i) ADD_FAILURE() << messages[i];
+  }
+
+ private:
+  inline static std::unique_ptr<gpu::Device> shared;
+  std::size_t before_ = 0;
+};
+
+} // namespace surfgrad::test
