@@ -155,10 +155,11 @@ image::Map random_map(image::TexelFormat format, int components) {
   const double low = format == image::TexelFormat::unorm16 ? 0 : -3.9;
   const double high = format == image::TexelFormat::unorm16 ? 1 : 3.9;
   for (float& texel : texels) texel = static_cast<float>(random.uniform(low, high));
+  const image::TexelRows rows = image::rows_of(texels, width, components);
   image::TexelCode code{format, 1};
-  if (format == image::TexelFormat::slope16) code = image::code_for_slopes(texels);
+  if (format == image::TexelFormat::slope16) code = image::code_for_slopes(rows, width, height);
   if (format == image::TexelFormat::unorm16) code.scale = 1.0 / 65535;
-  return image::with_pyramid(std::move(texels), width, height, components, code);
+  return image::with_pyramid(rows, width, height, components, code);
 }
 
 struct FormatCase {
@@ -244,7 +245,8 @@ TEST_P(Formats, HardwareFiltersAsTheEngineDoes) {
 
 TEST_F(Compute, MapsBeyondTheDevicesLimitAreRefusedWithTheLimit) {
   const int side = static_cast<int>(device().limits().maxImageDimension2D) + 1;
-  const image::Map map = image::with_pyramid(std::vector<float>(static_cast<std::size_t>(side)), side, 1, 1);
+  const std::vector<float> flat(static_cast<std::size_t>(side));
+  const image::Map map = image::with_pyramid(image::rows_of(flat, side, 1), side, 1, 1);
   try {
     const gpu::Texture texture(device(), map);
     FAIL() << "it was made";
