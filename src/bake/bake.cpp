@@ -37,9 +37,11 @@ class Bands {
  public:
   Bands(const stage::Stage& stage, const scene::Scene& scene, const Options& options)
       : scene_(scene), options_(options), slot_(stage.slot_of(0)),
+        tile_side_(options.backend != nullptr ? options.backend->tile_side() : tile_side),
         projection_(raster::Projection::texture(slot_, options.width, options.height)),
-        composer_(stage, projection_, options.width, options.height, tile_side, tile_side,
-                  {.vertex_frame = options.space == Space::tangent, .slot = slot_}) {}
+        composer_(stage, projection_, options.width, options.height, tile_side_, tile_side_,
+                  {.vertex_frame = options.space == Space::tangent, .slot = slot_}),
+        codes_([this] { return Codes(static_cast<std::size_t>(tile_side_)); }) {}
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
   void make(int row, image::Image& band) {
@@ -63,8 +65,9 @@ class Bands {
  private:
   /// Codes of a tile's pixels. One a thread.
   struct Codes {
-    std::vector<float> values = std::vector<float>(5 * length);
-    static constexpr std::size_t length = tile_side * tile_side + most_lanes;
+    explicit Codes(std::size_t side) : length(side * side + most_lanes), values(5 * length) {}
+    std::size_t length;
+    std::vector<float> values;
     float* array(std::size_t i) { return values.data() + i * length; }
   };
 
@@ -120,6 +123,7 @@ class Bands {
   const scene::Scene& scene_;
   const Options& options_;
   std::size_t slot_;
+  int tile_side_;
   raster::Projection projection_;
   stage::TileComposer composer_;
   tbb::enumerable_thread_specific<Codes> codes_;
@@ -133,7 +137,7 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
                   const Report& report) {
   const auto displaced = displace::displaced(asked, report.at_the_start());
   const scene::Scene& scene = displaced ? displaced->scene : asked;
-  const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report);
+  const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report, options.backend);
   Bands bands(stage, scene, options);
   stage::for_each_band(
       bands.count(), report, [&](int row, image::Image& band) { bands.make(row, band); }, take);
