@@ -46,14 +46,14 @@ void copy(const float* from, float* to, int count) {
 class DeviceComposer : public stage::Composer {
  public:
   DeviceComposer(const Device& device, int tile_side, const scene::Scene& scene,
-                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library)
+                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library, PipelineCache& cache)
       : device_(device), slots_(slots) {
     std::size_t most_floats = StackPipeline::result_floats;
     std::size_t most_values = 1;
     for (const scene::Material& material : scene.materials) {
       const shadergen::Shader shader = shader_of(scene, material);
       const StackMaps maps(shader, library);
-      pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, maps.maps()));
+      pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, maps.maps(), cache));
       most_floats = std::max(most_floats, pipelines_.back()->fragment_floats());
       most_values = std::max(most_values, pipelines_.back()->object_values({}).size());
     }
@@ -168,7 +168,7 @@ Backend::Backend(const Device& device, int most_tile_side)
 std::unique_ptr<stage::Composer> Backend::prepare(const scene::Scene& scene,
                                                   const std::vector<raster::UvSlot>& slots,
                                                   engine::MapLibrary& maps) const {
-  return std::make_unique<DeviceComposer>(device_, tile_side_, scene, slots, maps);
+  return std::make_unique<DeviceComposer>(device_, tile_side_, scene, slots, maps, cache_);
 }
 
 } // namespace surfgrad::gpu

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gpu/device.hpp"
+#include "gpu/pipeline.hpp"
 #include "stage/backend.hpp"
 
 namespace surfgrad::gpu {
@@ -24,6 +24,7 @@ class Backend : public stage::Backend {
  private:
   const Device& device_;
   int tile_side_;
+  mutable PipelineCache cache_{};
 };
 
 } // namespace surfgrad::gpu

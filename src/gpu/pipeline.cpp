@@ -60,6 +60,19 @@ ComputePipeline::ComputePipeline(const Device& device, const Spirv& shader, std:
   pipeline_ = {device.get(), pipeline, vkDestroyPipeline};
 }
 
+std::shared_ptr<const ComputePipeline>
+PipelineCache::pipeline(const std::string& text,
+                        const std::function<std::shared_ptr<const ComputePipeline>()>& make) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = made_.find(text); found != made_.end()) return found->second;
+  }
+  // Compiled outside the lock, perhaps twice: others need not wait.
+  std::shared_ptr<const ComputePipeline> pipeline = make();
+  const std::scoped_lock lock(mutex_);
+  return made_.try_emplace(text, std::move(pipeline)).first->second;
+}
+
 std::vector<VkDescriptorSetLayout> ComputePipeline::set_layouts() const {
   std::vector<VkDescriptorSetLayout> layouts;
   for (const auto& layout : set_layouts_) layouts.push_back(layout.get());

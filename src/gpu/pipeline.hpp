@@ -5,7 +5,12 @@
 #include "gpu/texture.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace surfgrad::gpu {
@@ -36,6 +41,18 @@ class ComputePipeline {
   std::vector<Handle<VkDescriptorSetLayout>> set_layouts_;
   Handle<VkPipelineLayout> layout_;
   Handle<VkPipeline> pipeline_;
+};
+
+/// Pipelines that were compiled, by the text of their shaders. Any number of threads.
+class PipelineCache {
+ public:
+  /// The pipeline of this text, made when it is first asked for.
+  [[nodiscard]] std::shared_ptr<const ComputePipeline>
+  pipeline(const std::string& text, const std::function<std::shared_ptr<const ComputePipeline>()>& make);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const ComputePipeline>> made_;
 };
 
 /// What a pipeline's bindings hold. All must be bound before a dispatch; what is bound must live through it.

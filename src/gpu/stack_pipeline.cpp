@@ -182,7 +182,7 @@ void append(std::vector<float>& values, const mat4<double>& m) {
 } // namespace
 
 StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shader,
-                             const std::vector<StackMap>& maps)
+                             const std::vector<StackMap>& maps, PipelineCache& cache)
     : device_(device), has_sunlight_(shader.has_sunlight) {
   for (const SurfaceMember& m : shader.surface) {
     if (m.of_object) {
@@ -216,8 +216,11 @@ StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shad
     add(Layout::maps, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.maps)));
   }
   constexpr std::uint32_t constant_bytes = 2 * sizeof(std::uint32_t);
-  pipeline_ = std::make_unique<ComputePipeline>(
-      device, compile({.text = text_of(shader), .name = shader.name}), std::move(bindings), constant_bytes);
+  const std::string text = text_of(shader);
+  pipeline_ = cache.pipeline(text, [&] {
+    return std::make_shared<const ComputePipeline>(device, compile({.text = text, .name = shader.name}),
+                                                   bindings, constant_bytes);
+  });
 }
 
 bool StackPipeline::wants(Attribute attribute) const {

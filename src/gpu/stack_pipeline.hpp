@@ -26,8 +26,10 @@ struct StackAttribute {
 /// compose fragments.
 class StackPipeline {
  public:
+  /// cache   of pipelines: stacks that differ in numbers and maps alone share theirs
   /// throws  MachineError where its maps exceed the device's buffers
-  StackPipeline(const Device& device, const shadergen::Shader& shader, const std::vector<StackMap>& maps);
+  StackPipeline(const Device& device, const shadergen::Shader& shader, const std::vector<StackMap>& maps,
+                PipelineCache& cache);
 
   /// Arrays of a batch of fragments, in this order, each of floats_of its attribute.
   [[nodiscard]] const std::vector<StackAttribute>& attributes() const { return attributes_; }
@@ -62,7 +64,7 @@ class StackPipeline {
     Buffer buffer;
   };
   std::vector<SetZero> stack_buffers_;
-  std::unique_ptr<ComputePipeline> pipeline_;
+  std::shared_ptr<const ComputePipeline> pipeline_;
 };
 
 } // namespace surfgrad::gpu
