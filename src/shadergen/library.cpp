@@ -138,7 +138,10 @@ Library::Library(std::string_view text, Language language) {
         tokens[end].text.find('\n') == std::string_view::npos)
       end += 2;
     d.text = between(tokens, i, std::min(end, tokens.size()));
-    if (comment < i) d.comment = summary(between(tokens, comment, i));
+    if (comment < i)
+      d.comment = summary(between(tokens, comment, i));
+    else if (!declarations_.empty() && declarations_.back().name == d.name)
+      d.comment = declarations_.back().comment; // an overload's, which stands above the first
     declarations_.push_back(d);
     comment = tokens.size();
     i = end;
@@ -161,7 +164,9 @@ std::vector<const Library::Declaration*> Library::named_in(std::string_view code
     if (tokens[i].text == "}" && --depth == 0) scope = i + 1;
     if (tokens[i].kind != Kind::word) continue;
     // A declaration's own name is no call.
-    if (i >= 2 && tokens[i - 2].kind == Kind::word && tokens[i - 2].text != "return") continue;
+    if (i >= 2 && tokens[i - 1].kind == Kind::space && tokens[i - 2].kind == Kind::word &&
+        tokens[i - 2].text != "return" && tokens[i - 2].text != "else")
+      continue;
     int arguments = -1, components = 0;
     if (i + 1 < tokens.size() && tokens[i + 1].text == "(") {
       const std::size_t close = closing(tokens, i + 1);
@@ -172,8 +177,7 @@ std::vector<const Library::Declaration*> Library::named_in(std::string_view code
     }
     for (const Declaration& d : declarations_) {
       if (d.name != tokens[i].text) continue;
-      const bool other = d.components > 0 && components > 0 && d.components != components &&
-                         is_overloaded(d);
+      const bool other = d.components > 0 && components > 0 && d.components != components && is_overloaded(d);
       if (d.arguments < 0 || (d.arguments == arguments && !other)) result.push_back(&d);
     }
   }
@@ -190,8 +194,13 @@ std::string Library::used_by(std::string_view code) const {
     waiting.insert(waiting.end(), further.begin(), further.end());
   }
   std::string result;
-  for (const Declaration& d : declarations_)
-    if (used.contains(&d)) result += std::string(d.comment) + std::string(d.text) + "\n\n";
+  std::string_view comment;
+  for (const Declaration& d : declarations_) {
+    if (!used.contains(&d)) continue;
+    if (d.comment.data() != comment.data()) result += d.comment;
+    comment = d.comment;
+    result += std::string(d.text) + "\n\n";
+  }
   return result;
 }
 

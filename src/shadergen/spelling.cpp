@@ -135,7 +135,7 @@ class Speller {
                                          : fmt::format("{} ? {} : {}", a[0], a[1], a[2]);
     if (name == "product")
       return language_ == Language::hlsl ? fmt::format("mul({}, {})", a[0], a[1])
-                                         : fmt::format("{} * {}", a[0], a[1]);
+                                         : fmt::format("{} * {}", factor(a[0]), factor(a[1]));
     if (name == "matrix_of_rows") {
       const std::string made = fmt::format("{}({}, {}, {}, {})", word("mat4"), a[0], a[1], a[2], a[3]);
       return language_ == Language::hlsl ? made : fmt::format("transpose({})", made); // columns elsewhere
@@ -150,6 +150,16 @@ class Speller {
       break;
     }
     return sampled_in_glsl(name, a);
+  }
+
+  /// An expression that can be multiplied: in brackets where it holds an operator outside of any.
+  static std::string factor(const std::string& expression) {
+    int depth = 0;
+    for (const char c : expression) {
+      depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+      if (c == ' ' && depth == 0) return fmt::format("({})", expression);
+    }
+    return expression;
   }
 
   static std::string sampled_in_glsl(std::string_view name, const std::vector<std::string>& a) {
