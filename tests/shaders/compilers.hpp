@@ -1,0 +1,31 @@
+#pragma once
+
+/// The shader compilers of the tests, as programs: glslang for GLSL and HLSL, Dawn and naga for WGSL.
+
+#include <string>
+
+namespace surfgrad::test {
+
+/// What a compiler said; empty where it accepted the shader without a word.
+struct Verdict {
+  bool accepted = false;
+  std::string messages{};
+};
+
+/// A file of shaders/, "surfgrad.glsl".
+[[nodiscard]] std::string library(const std::string& name);
+
+/// GLSL with its #version line; stage: vert, frag, comp. A desktop version becomes SPIR-V for Vulkan 1.1,
+/// which is validated; an ES version is parsed as OpenGL ES.
+[[nodiscard]] Verdict compile_glsl(const std::string& text, const std::string& stage);
+
+/// A GLSL file of the project, by its path there, that includes files of shaders/.
+[[nodiscard]] Verdict compile_glsl_file(const std::string& file, const std::string& stage);
+
+/// HLSL with a function main, by way of SPIR-V, which is validated.
+[[nodiscard]] Verdict compile_hlsl(const std::string& text, const std::string& stage);
+
+/// WGSL, uniformity included: both compilers must accept it.
+[[nodiscard]] Verdict compile_wgsl(const std::string& text);
+
+} // namespace surfgrad::test
