@@ -34,12 +34,14 @@
 // vectors count as zero; an operation may err by what the API allows it.
 //
 // SURFGRAD_FRAGMENT, defined before this file in a fragment shader, adds the functions that take
-// derivatives across pixels (the last section).
+// derivatives across pixels (the last section). SURFGRAD_GODOT is for Godot's own dialect (4.5 and newer).
 
 #ifndef SURFGRAD_GLSL
 #define SURFGRAD_GLSL
 
-#ifdef GL_ES
+#if defined(SURFGRAD_GODOT)
+#define SURFGRAD_PRECISE
+#elif defined(GL_ES)
 precision highp float;
 precision highp int;
 #define SURFGRAD_PRECISE
@@ -88,6 +90,11 @@ float surfgrad_detail_inverse_length(vec3 v) {
 // v / |v|, for lengths up to 1e18. Shorter than 1e-18 may give zero, as zero does.
 vec3 surfgrad_normalize_or_zero(vec3 v) { return surfgrad_detail_inverse_length(v) * v; }
 
+// v in units of its magnitude: for products, whose squares may leave the range of numbers. Inf stays Inf.
+vec3 surfgrad_detail_in_units_of_itself(vec3 v) {
+  return (1.0 / clamp(surfgrad_max_abs(v), SURFGRAD_LEAST, 1e30)) * v;
+}
+
 // Base-2 logarithm, from the smallest normal number's (-126) up: a finite level of detail, never -Inf.
 float surfgrad_log2(float a) { return log2(clamp(a, SURFGRAD_LEAST, SURFGRAD_MOST)); }
 
@@ -98,7 +105,8 @@ float surfgrad_exp2(float a) { return a > -126.0 ? min(exp2(min(a, 128.0)), SURF
 float surfgrad_pow(float a, float k) { return a > 0.0 ? surfgrad_exp2(k * surfgrad_log2(a)) : 0.0; }
 
 struct SurfgradSinCos {
-  float sin, cos;
+  float sin;
+  float cos;
 };
 
 // Sine and cosine of an angle in turns: 1 is a full circle. Exact at multiples of a quarter turn, as
@@ -143,16 +151,19 @@ const int SURFGRAD_BACK_FACES_FLIP = 2;   // the front's perturbed normal, negat
 
 // Per-fragment state of one pass of bump mapping. What a shader does not use costs nothing.
 struct SurfgradFrame {
-  vec3 normal;           // base normal: unit, or zero where nothing defines it
-  vec3 dp_dx, dp_dy;     // screen-space derivatives of the surface position
-  vec3 sigma_x, sigma_y; // dp_dx, dp_dy without their part along the normal
-  float flip_sign;       // +1 or -1: orientation of (dp_dx, dp_dy) seen against the normal
-  float resolve_sign;    // -1 on a back face in mode flip, else +1
+  vec3 normal; // base normal: unit, or zero where nothing defines it
+  vec3 dp_dx;  // screen-space derivatives of the surface position
+  vec3 dp_dy;
+  vec3 sigma_x; // dp_dx, dp_dy without their part along the normal
+  vec3 sigma_y;
+  float flip_sign;    // +1 or -1: orientation of (dp_dx, dp_dy) seen against the normal
+  float resolve_sign; // -1 on a back face in mode flip, else +1
 };
 
 // Directions in which s and t grow. Scale matters: surfgrad_from_tbn uses the vectors as they are.
 struct SurfgradTangentFrame {
-  vec3 tangent, bitangent;
+  vec3 tangent;
+  vec3 bitangent;
 };
 
 SurfgradFrame surfgrad_detail_frame_from_unit_normal(vec3 n, vec3 dp_dx, vec3 dp_dy, float resolve_sign) {
@@ -164,9 +175,7 @@ SurfgradFrame surfgrad_detail_frame_from_unit_normal(vec3 n, vec3 dp_dx, vec3 dp
 // normalize(normal), or the direction of plane_sign * cross(dp_dx, dp_dy) where the normal is zero.
 vec3 surfgrad_detail_unit_normal_or_plane(vec3 normal, vec3 dp_dx, vec3 dp_dy, float plane_sign) {
   if (surfgrad_max_abs(normal) < SURFGRAD_DETAIL_SHORTEST) {
-    vec3 plane = plane_sign * cross(dp_dx, dp_dy);
-    // In units of its magnitude: the square of a microscopic footprint's area would vanish.
-    normal = (1.0 / max(surfgrad_max_abs(plane), SURFGRAD_LEAST)) * plane;
+    normal = surfgrad_detail_in_units_of_itself(plane_sign * cross(dp_dx, dp_dy));
   }
   return surfgrad_normalize_or_zero(normal);
 }
@@ -248,11 +257,10 @@ SurfgradTangentFrame surfgrad_tangent_basis(SurfgradFrame frame, vec2 dst_dx, ve
   float det = surfgrad_cross(dst_dx, dst_dy);
   bool collapsed = !(SURFGRAD_EPSILON * (size_x * size_y) < abs(det));
   float sign = det < 0.0 ? -1.0 : 1.0;
-  // (dx/ds, dy/ds) up to a positive factor, which normalisation removes; of order one, so that the square of
-  // a microscopic footprint does not vanish.
-  float rate = collapsed ? 0.0 : sign / max(size_x, size_y);
+  // The position's change along s, up to a positive factor, which normalisation removes.
+  vec3 along_s = dst_dy.y * frame.sigma_x - dst_dx.y * frame.sigma_y;
   vec3 tangent =
-      surfgrad_normalize_or_zero((rate * dst_dy.y) * frame.sigma_x - (rate * dst_dx.y) * frame.sigma_y);
+      (collapsed ? 0.0 : sign) * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
   return SurfgradTangentFrame(tangent, (sign * frame.flip_sign) * cross(frame.normal, tangent));
 }
 
@@ -495,17 +503,20 @@ mat3 surfgrad_tangent_normal_matrix(mat3 rotation, mat3 scale, vec3 dp_du, vec3 
 // The same for a scale along the object's axes.
 mat3 surfgrad_tangent_normal_matrix(mat3 rotation, vec3 scale, vec3 dp_du, vec3 dp_dv, vec3 normal) {
   return surfgrad_tangent_normal_matrix(
-      rotation, mat3(scale.x, 0.0, 0.0, 0.0, scale.y, 0.0, 0.0, 0.0, scale.z), dp_du, dp_dv, normal);
+      rotation, mat3(vec3(scale.x, 0.0, 0.0), vec3(0.0, scale.y, 0.0), vec3(0.0, 0.0, scale.z)), dp_du, dp_dv,
+      normal);
 }
 
 // Derivatives without differences across pixels -----------------------------------------------------------
 
 struct SurfgradScreenDerivatives {
-  vec3 dp_dx, dp_dy;
+  vec3 dp_dx;
+  vec3 dp_dy;
 };
 
 struct SurfgradTextureDerivatives {
-  vec2 dst_dx, dst_dy;
+  vec2 dst_dx;
+  vec2 dst_dy;
 };
 
 // Screen-space derivatives of the position on the tangent plane at a fragment, analytically: for
@@ -625,7 +636,8 @@ vec3 surfgrad_surface_offset(SurfgradFrame frame, vec2 dst_dx, vec2 dst_dy, vec2
 // v             from surfgrad_screen_offset
 // source        Mikkelsen 2019, section 2.6
 vec3 surfgrad_offset_normal(SurfgradFrame frame, vec3 dn_dx, vec3 dn_dy, vec2 v) {
-  return surfgrad_normalize_or_zero(frame.normal + v.x * dn_dx + v.y * dn_dy);
+  return surfgrad_normalize_or_zero(
+      surfgrad_detail_in_units_of_itself(frame.normal + v.x * dn_dx + v.y * dn_dy));
 }
 
 // Parallax occlusion mapping ------------------------------------------------------------------------------
@@ -643,10 +655,13 @@ struct SurfgradParallaxHit {
 
 // A march under way. The bracket: the ray is above the map at `upper`, at or below it at `lower`.
 struct SurfgradParallaxMarch {
-  vec2 st, dst;
+  vec2 st;
+  vec2 dst;
   float ray; // height of the ray where the map is asked for next
-  float upper, lower;
-  float upper_clearance, lower_clearance; // of the map above the ray
+  float upper;
+  float lower;
+  float upper_clearance; // of the map above the ray
+  float lower_clearance;
   int steps;
   int searched; // heights of the search so far
   int refined;  // heights of the refinement so far
@@ -755,15 +770,19 @@ vec3 surfgrad_from_decal(vec3 normal, vec2 deriv, vec3 axis_x, vec3 axis_y) {
 // Placement of a decal: its origin and orthonormal axes, either handedness. Sizes belong to the shapes.
 struct SurfgradDecalFrame {
   vec3 origin;
-  vec3 axis_x, axis_y, axis_z;
+  vec3 axis_x;
+  vec3 axis_y;
+  vec3 axis_z;
 };
 
 // An image projected by a box, cone or wedge, at one point. All zero outside the shape.
 struct SurfgradDecalProjection {
   vec2 texture_coordinate; // [0, 1]^2 over the image
-  vec3 grad_s, grad_t;     // exact gradients of the texture coordinate in space
-  vec3 axis_s, axis_t;     // what a unit slope along s and t adds to the volume gradient
-  float falloff;           // 1 in the core, falling smoothly to 0 at the shape's surface
+  vec3 grad_s;             // exact gradients of the texture coordinate in space
+  vec3 grad_t;
+  vec3 axis_s; // what a unit slope along s and t adds to the volume gradient
+  vec3 axis_t;
+  float falloff; // 1 in the core, falling smoothly to 0 at the shape's surface
   bool inside;
 };
 
@@ -936,16 +955,21 @@ const int SURFGRAD_PLANE_AXIS_Z = 2;
 // One value gives coordinates and gradients, so that they cannot disagree. Right-handed spaces sample the x-
 // and y-planes of listing 13 at -z; upper-left textures are sampled at -t.
 struct SurfgradTriplanarConvention {
-  int handedness, origin, planes;
+  int handedness;
+  int origin;
+  int planes;
 };
 
 // That of listing 13: left-handed, lower-left origin.
-const SurfgradTriplanarConvention SURFGRAD_LISTING_13 = SurfgradTriplanarConvention(
-    SURFGRAD_HANDEDNESS_LEFT, SURFGRAD_TEXTURE_ORIGIN_LOWER_LEFT, SURFGRAD_TRIPLANAR_PLANES_MIKKELSEN);
+#define SURFGRAD_LISTING_13                                                                                  \
+  SurfgradTriplanarConvention(SURFGRAD_HANDEDNESS_LEFT, SURFGRAD_TEXTURE_ORIGIN_LOWER_LEFT,                  \
+                              SURFGRAD_TRIPLANAR_PLANES_MIKKELSEN)
 
 // Texture coordinates of the three planes at one point.
 struct SurfgradTriplanarCoordinates {
-  vec2 x_plane, y_plane, z_plane;
+  vec2 x_plane;
+  vec2 y_plane;
+  vec2 z_plane;
 };
 
 // -1 where the convention negates z (x) or the second texture coordinate (y).
@@ -1185,8 +1209,8 @@ SurfgradNoise surfgrad_simplex(vec3 p, uint start) {
   bool x_from_y = !(d.x < d.y);
   bool x_from_z = !(d.x < d.z);
   bool y_from_z = !(d.y < d.z);
-  ivec3 one = ivec3(x_from_y && x_from_z, !x_from_y && y_from_z, !x_from_z && !y_from_z);
-  ivec3 two = ivec3(x_from_y || x_from_z, !x_from_y || y_from_z, !x_from_z || !y_from_z);
+  ivec3 one = ivec3(bvec3(x_from_y && x_from_z, !x_from_y && y_from_z, !x_from_z && !y_from_z));
+  ivec3 two = ivec3(bvec3(x_from_y || x_from_z, !x_from_y || y_from_z, !x_from_z || !y_from_z));
   SurfgradNoise a = surfgrad_detail_simplex_corner(sum, d);
   SurfgradNoise b =
       surfgrad_detail_simplex_corner(sum + surfgrad_detail_lattice_sum(one), d - vec3(one) + sixth);
@@ -1441,7 +1465,8 @@ vec2 surfgrad_rotate_back(vec2 v, vec2 rotation) {
 }
 
 struct SurfgradDetailHexTile {
-  vec2 st, rotation;
+  vec2 st;
+  vec2 rotation;
 };
 
 // The tile of a vertex. sum: of its indices; along: (i, j) from there to the point `place`.
@@ -1481,7 +1506,7 @@ SurfgradHexTiles surfgrad_hex_tiles(vec2 st, float rotation, float edge, vec2 pe
   vec2 ij = vec2(q.x - 0.57735026918962576451 * q.y, 1.15470053837925152902 * q.y);
   vec2 low = floor(ij);
   vec2 f = ij - low;
-  uint vertex = surfgrad_detail_lattice_sum(ivec3(low, 0.0)) + origin.start;
+  uint vertex = surfgrad_detail_lattice_sum(ivec3(ivec2(low), 0)) + origin.start;
   // The diagonal from (1, 0) to (0, 1) divides a cell into two triangles.
   float sum = f.x + f.y;
   bool lower = sum < 1.0;
@@ -1574,7 +1599,7 @@ float surfgrad_roughness_from_moments(float alpha, SurfgradSlopeMoments m) {
 #ifdef SURFGRAD_FRAGMENT
 
 // Fine where the version has them: coarse ones make blocks of 2x2 pixels.
-#ifdef GL_ES
+#if defined(GL_ES) || defined(SURFGRAD_GODOT)
 #define SURFGRAD_DDX dFdx
 #define SURFGRAD_DDY dFdy
 #else

@@ -86,6 +86,11 @@ float surfgrad_detail_inverse_length(float3 v) {
 // v / |v|, for lengths up to 1e18. Shorter than 1e-18 may give zero, as zero does.
 float3 surfgrad_normalize_or_zero(float3 v) { return surfgrad_detail_inverse_length(v) * v; }
 
+// v in units of its magnitude: for products, whose squares may leave the range of numbers. Inf stays Inf.
+float3 surfgrad_detail_in_units_of_itself(float3 v) {
+  return (1.0 / clamp(surfgrad_max_abs(v), SURFGRAD_LEAST, 1e30)) * v;
+}
+
 // Base-2 logarithm, from the smallest normal number's (-126) up: a finite level of detail, never -Inf.
 float surfgrad_log2(float a) { return log2(clamp(a, SURFGRAD_LEAST, SURFGRAD_MOST)); }
 
@@ -170,9 +175,7 @@ SurfgradFrame surfgrad_detail_frame_from_unit_normal(float3 n, float3 dp_dx, flo
 // normalize(normal), or the direction of plane_sign * cross(dp_dx, dp_dy) where the normal is zero.
 float3 surfgrad_detail_unit_normal_or_plane(float3 normal, float3 dp_dx, float3 dp_dy, float plane_sign) {
   if (surfgrad_max_abs(normal) < SURFGRAD_DETAIL_SHORTEST) {
-    float3 plane = plane_sign * cross(dp_dx, dp_dy);
-    // In units of its magnitude: the square of a microscopic footprint's area would vanish.
-    normal = (1.0 / max(surfgrad_max_abs(plane), SURFGRAD_LEAST)) * plane;
+    normal = surfgrad_detail_in_units_of_itself(plane_sign * cross(dp_dx, dp_dy));
   }
   return surfgrad_normalize_or_zero(normal);
 }
@@ -257,11 +260,10 @@ SurfgradTangentFrame surfgrad_tangent_basis(SurfgradFrame frame, float2 dst_dx, 
   float det = surfgrad_cross(dst_dx, dst_dy);
   bool collapsed = !(SURFGRAD_EPSILON * (size_x * size_y) < abs(det));
   float sign = det < 0.0 ? -1.0 : 1.0;
-  // (dx/ds, dy/ds) up to a positive factor, which normalisation removes; of order one, so that the square of
-  // a microscopic footprint does not vanish.
-  float rate = collapsed ? 0.0 : sign / max(size_x, size_y);
+  // The position's change along s, up to a positive factor, which normalisation removes.
+  float3 along_s = dst_dy.y * frame.sigma_x - dst_dx.y * frame.sigma_y;
   float3 tangent =
-      surfgrad_normalize_or_zero((rate * dst_dy.y) * frame.sigma_x - (rate * dst_dx.y) * frame.sigma_y);
+      (collapsed ? 0.0 : sign) * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
   SurfgradTangentFrame result = {tangent, (sign * frame.flip_sign) * cross(frame.normal, tangent)};
   return result;
 }
@@ -642,7 +644,8 @@ float3 surfgrad_surface_offset(SurfgradFrame frame, float2 dst_dx, float2 dst_dy
 // v             from surfgrad_screen_offset
 // source        Mikkelsen 2019, section 2.6
 float3 surfgrad_offset_normal(SurfgradFrame frame, float3 dn_dx, float3 dn_dy, float2 v) {
-  return surfgrad_normalize_or_zero(frame.normal + v.x * dn_dx + v.y * dn_dy);
+  return surfgrad_normalize_or_zero(
+      surfgrad_detail_in_units_of_itself(frame.normal + v.x * dn_dx + v.y * dn_dy));
 }
 
 // Parallax occlusion mapping ------------------------------------------------------------------------------

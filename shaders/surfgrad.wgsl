@@ -90,6 +90,11 @@ fn surfgrad_detail_inverse_length(v: vec3f) -> f32 {
 // v / |v|, for lengths up to 1e18. Shorter than 1e-18 may give zero, as zero does.
 fn surfgrad_normalize_or_zero(v: vec3f) -> vec3f { return surfgrad_detail_inverse_length(v) * v; }
 
+// v in units of its magnitude: for products, whose squares may leave the range of numbers. Inf stays Inf.
+fn surfgrad_detail_in_units_of_itself(v: vec3f) -> vec3f {
+  return (1.0 / clamp(surfgrad_max_abs(v), SURFGRAD_LEAST, 1e30)) * v;
+}
+
 // Base-2 logarithm, from the smallest normal number's (-126) up: a finite level of detail, never -Inf.
 fn surfgrad_log2(a: f32) -> f32 { return log2(clamp(a, SURFGRAD_LEAST, SURFGRAD_MOST)); }
 
@@ -178,9 +183,7 @@ fn surfgrad_detail_unit_normal_or_plane(normal_in: vec3f, dp_dx: vec3f, dp_dy: v
                                         plane_sign: f32) -> vec3f {
   var normal = normal_in;
   if (surfgrad_max_abs(normal) < SURFGRAD_DETAIL_SHORTEST) {
-    let plane = plane_sign * cross(dp_dx, dp_dy);
-    // In units of its magnitude: the square of a microscopic footprint's area would vanish.
-    normal = (1.0 / max(surfgrad_max_abs(plane), SURFGRAD_LEAST)) * plane;
+    normal = surfgrad_detail_in_units_of_itself(plane_sign * cross(dp_dx, dp_dy));
   }
   return surfgrad_normalize_or_zero(normal);
 }
@@ -264,11 +267,10 @@ fn surfgrad_tangent_basis(frame: SurfgradFrame, dst_dx: vec2f, dst_dy: vec2f) ->
   let det = surfgrad_cross(dst_dx, dst_dy);
   let collapsed = !(SURFGRAD_EPSILON * (size_x * size_y) < abs(det));
   let sign = select(1.0, -1.0, det < 0.0);
-  // (dx/ds, dy/ds) up to a positive factor, which normalisation removes; of order one, so that the square of
-  // a microscopic footprint does not vanish.
-  let rate = select(sign / max(size_x, size_y), 0.0, collapsed);
+  // The position's change along s, up to a positive factor, which normalisation removes.
+  let along_s = dst_dy.y * frame.sigma_x - dst_dx.y * frame.sigma_y;
   let tangent =
-      surfgrad_normalize_or_zero((rate * dst_dy.y) * frame.sigma_x - (rate * dst_dx.y) * frame.sigma_y);
+      select(sign, 0.0, collapsed) * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
   return SurfgradTangentFrame(tangent, (sign * frame.flip_sign) * cross(frame.normal, tangent));
 }
 
@@ -650,7 +652,8 @@ fn surfgrad_surface_offset(frame: SurfgradFrame, dst_dx: vec2f, dst_dy: vec2f,
 // v             from surfgrad_screen_offset
 // source        Mikkelsen 2019, section 2.6
 fn surfgrad_offset_normal(frame: SurfgradFrame, dn_dx: vec3f, dn_dy: vec3f, v: vec2f) -> vec3f {
-  return surfgrad_normalize_or_zero(frame.normal + v.x * dn_dx + v.y * dn_dy);
+  return surfgrad_normalize_or_zero(
+      surfgrad_detail_in_units_of_itself(frame.normal + v.x * dn_dx + v.y * dn_dy));
 }
 
 // Parallax occlusion mapping ------------------------------------------------------------------------------

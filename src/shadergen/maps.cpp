@@ -51,7 +51,8 @@ std::size_t index_of(Shader& shader, TextureBinding binding, const std::string& 
 std::size_t middle_comma(const std::string& arguments) {
   int depth = 0;
   std::size_t i = 0;
-  for (; depth > 0 || arguments[i] != ','; ++i) depth += arguments[i] == '(' ? 1 : arguments[i] == ')' ? -1 : 0;
+  for (; depth > 0 || arguments[i] != ','; ++i)
+    depth += arguments[i] == '(' ? 1 : arguments[i] == ')' ? -1 : 0;
   return i;
 }
 
@@ -164,8 +165,9 @@ std::vector<MapUse::Place> MapUse::places() const {
   for (int k = 0; k < 3; ++k) {
     const std::string rotation = fmt::format("tiles.rotation[{}]", k);
     const std::string turned =
-        exact ? fmt::format("stack_footprint_in_tile(footprint, sides, {})", rotation)
-              : fmt::format("stack_in_tile({1}, sides, {0}), stack_in_tile({2}, sides, {0})", rotation, dx, dy);
+        exact
+            ? fmt::format("stack_footprint_in_tile(footprint, sides, {})", rotation)
+            : fmt::format("stack_in_tile({1}, sides, {0}), stack_in_tile({2}, sides, {0})", rotation, dx, dy);
     places.push_back({fmt::format("tiles.st[{}] / sides", k), turned, rotation});
   }
   return places;

@@ -5,12 +5,13 @@
 #include "shadergen/generator.hpp"
 #include "shadergen/layers/layers.hpp"
 #include "shadergen/library.hpp"
+#include "shadergen/line_breaks.hpp"
 #include "shadergen/parameters.hpp"
 #include "shadergen/spelling.hpp"
 #include "stack/uses.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <stdexcept>
 
 namespace surfgrad::shadergen {
 namespace {
@@ -96,6 +97,15 @@ std::string key_of(const stack::Layer& layer) {
       layer);
 }
 
+/// The names of a layer's files, for a comment.
+std::string maps_of(const stack::Layer& layer) {
+  stack::Layer copy = layer; // files_of gives what can be changed
+  std::string names;
+  for (const stack::FileName* file : stack::files_of(copy))
+    names += (names.empty() ? "" : ", ") + file->path.filename().string();
+  return names;
+}
+
 /// What a member of the surface is, for whoever fills it.
 std::string_view remark_on(Role role) {
   switch (role) {
@@ -117,7 +127,7 @@ std::string_view remark_on(Role role) {
   case Role::dst_dy:
     return "its change per pixel";
   case Role::tangent:
-    return "vertex tangent, interpolated, not normalised; w the sign of the bitangent";
+    return "vertex tangent, interpolated, not normalised; w its sign";
   case Role::object_position:
     return "in the object's space, before any displacement";
   case Role::world_position:
@@ -141,7 +151,7 @@ std::string_view remark_on(Role role) {
   case Role::dn_dy:
     return "and along y";
   case Role::relative_from_screen:
-    return "takes (x, y, depth, 1) in pixels to position, before the division by w; zero: over the surface";
+    return "takes (x, y, depth, 1) in pixels to position; zero if no screen";
   }
   return "";
 }
@@ -231,7 +241,7 @@ Common written(const std::vector<stack::Layer>& layers, const Options& options, 
   static_cast<void>(g.surface(Role::normal));
   if (options.diagnostics) static_cast<void>(g.surface(Role::normal_is_absent));
   for (const stack::Layer& layer : layers) {
-    g.begin_layer(key_of(layer), kind_of(layer));
+    g.begin_layer(key_of(layer), kind_of(layer), maps_of(layer));
     std::visit([&](const auto& kind) { write(kind, g); }, layer);
   }
   const std::string frame = g.tangents_alone() ? "" : first_frame(g);
@@ -243,13 +253,6 @@ Common written(const std::vector<stack::Layer>& layers, const Options& options, 
   common.code = g.functions() + function + (vertex.empty() ? "" : "\n" + vertex);
   common.fragment_only = derivatives_function(shader);
   return common;
-}
-
-void check_name(const std::string& name) {
-  const bool good =
-      !name.empty() && name[0] >= 'a' && name[0] <= 'z' &&
-      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
-  if (!good) throw std::invalid_argument("a shader's name is a lower-case letter, then letters and digits");
 }
 
 std::string comment_block(const Options& options, const Shader& shader) {
@@ -267,8 +270,16 @@ std::string comment_block(const Options& options, const Shader& shader) {
 
 } // namespace
 
+bool is_name(std::string_view text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return !text.empty() && text[0] >= 'a' && text[0] <= 'z' &&
+         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
+}
+
 Shader generate(const std::vector<stack::Layer>& layers, const Options& options) {
-  check_name(options.name);
+  if (!is_name(options.name))
+    throw std::invalid_argument("a shader's name is a lower-case letter, then letters and digits");
   Shader shader;
   const auto fresh = [&] {
     Shader s;
@@ -316,7 +327,7 @@ Shader generate(const std::vector<stack::Layer>& layers, const Options& options)
     library = fmt::format("#include \"{}\"\n\n", library_name(options.language));
   }
   shader.source = renamed(comment_block(options, shader), shader.name, shader.type_name) + library +
-                  renamed(code, shader.name, shader.type_name);
+                  with_line_breaks(renamed(code, shader.name, shader.type_name));
   for (TextureBinding& t : shader.textures) {
     t.name = renamed(t.name, shader.name, shader.type_name);
     t.sampler = renamed(t.sampler, shader.name, shader.type_name);

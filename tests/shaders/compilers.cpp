@@ -55,6 +55,11 @@ Verdict compile_glsl(const std::string& text, const std::string& stage) {
   return is_es ? run_glslang("-S " + stage, file) : compile_for_vulkan(folder, "-S " + stage, file);
 }
 
+Verdict compile_glsl_file(const std::string& file, const std::string& stage) {
+  return compile_for_vulkan(TemporaryFolder(), "-I" SURFGRAD_SOURCE_DIR "/shaders -S " + stage,
+                            SURFGRAD_SOURCE_DIR "/" + file);
+}
+
 Verdict compile_hlsl(const std::string& text, const std::string& stage) {
   const TemporaryFolder folder;
   return compile_for_vulkan(folder, "-D -e main -S " + stage, folder.write("shader.hlsl", text).string());

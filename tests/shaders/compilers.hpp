@@ -19,6 +19,9 @@ struct Verdict {
 /// which is validated; an ES version is parsed as OpenGL ES.
 [[nodiscard]] Verdict compile_glsl(const std::string& text, const std::string& stage);
 
+/// A GLSL file of the project, by its path there, that includes files of shaders/.
+[[nodiscard]] Verdict compile_glsl_file(const std::string& file, const std::string& stage);
+
 /// HLSL with a function main, by way of SPIR-V, which is validated.
 [[nodiscard]] Verdict compile_hlsl(const std::string& text, const std::string& stage);
 

@@ -62,6 +62,23 @@ TEST(GlslLibrary, CompilesAsEs300AndEs310) {
   expect_silence(compile_glsl(glsl("310 es", "comp"), "comp"));
 }
 
+// Godot's compiler is not at hand. Its dialect is nearest to GLSL ES 3.00; what it lacks besides is looked
+// for.
+TEST(GlslLibrary, KeepsToGodotsDialect) {
+  const std::string text = library("surfgrad.glsl");
+  expect_silence(compile_glsl("#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                              "#define SURFGRAD_GODOT\n#define SURFGRAD_FRAGMENT\n" +
+                                  text + glsl_body +
+                                  "out vec4 colour;\nvoid main() { colour = all_macros(vec4(1.0)); }\n",
+                              "frag"));
+  // Several members in one declaration, constants of a struct type, matrices of single numbers.
+  for (const char* foreign : {"\n  (float|int|uint|vec[234]) [a-z_]+, [a-z_]+", "const Surfgrad",
+                              "\\bmat[34]\\([-a-z_0-9]+\\.[xyz0],"}) {
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(text, found, std::regex(foreign))) << found.str();
+  }
+}
+
 TEST(GlslLibrary, TakesDerivativesInFragmentShadersOnly) {
   const Verdict verdict =
       compile_glsl("#version 450\n#define SURFGRAD_FRAGMENT\n" + library("surfgrad.glsl") +

@@ -5,7 +5,6 @@
 
 #include "gpu/device.hpp"
 
-#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <memory>
@@ -13,12 +12,7 @@
 namespace surfgrad::test {
 
 /// Before the first call of Vulkan.
-inline void choose_software_driver() {
-  setenv("VK_ICD_FILENAMES", SURFGRAD_SOFTWARE_VULKAN, 0);
-  // By default it filters textures with 8-bit weights and chooses levels for groups of pixels.
-  setenv("GALLIVM_PERF", "no_brilinear,no_rho_approx,no_quad_lod,no_aos_sampling", 0);
-  setenv("XDG_RUNTIME_DIR", "/tmp", 0); // else Mesa complains, though nothing is put there
-}
+void choose_software_driver();
 
 class VulkanTest : public ::testing::Test {
  protected:
