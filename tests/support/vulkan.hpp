@@ -1,18 +1,16 @@
 #pragma once
 
-/// Tests on a Vulkan device: Mesa's software driver, exact and the same on every machine, unless
-/// VK_ICD_FILENAMES names another. Each fails on anything that the validation layer says.
+/// Tests on a Vulkan device (support/software_driver.hpp). Each fails on anything that the validation layer
+/// says.
 
 #include "gpu/device.hpp"
+#include "support/software_driver.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <memory>
 
 namespace surfgrad::test {
-
-/// Before the first call of Vulkan.
-void choose_software_driver();
 
 class VulkanTest : public ::testing::Test {
  protected:

@@ -1,8 +1,9 @@
-#include "support/vulkan.hpp"
+#include "support/software_driver.hpp"
 
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <initializer_list>
 
 /// LeakSanitizer: what the driver and its compiler never free is not ours.
 extern "C" const char* __lsan_default_suppressions();
