@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+//
 // Surface gradient based bump mapping: the functions of include/surfgrad in GLSL.
 //
 // One self-contained file, for GLSL 450 and newer (any stage, Vulkan or OpenGL) and for GLSL ES 3.00
@@ -1109,7 +1111,7 @@ float surfgrad_detail_bit_field(uint word, uint first, uint count) {
 }
 
 vec3 surfgrad_detail_saturate_to_lattice(vec3 p) {
-  const float extent = float(SURFGRAD_NOISE_EXTENT);
+  float extent = float(SURFGRAD_NOISE_EXTENT);
   return clamp(p, -extent, extent);
 }
 

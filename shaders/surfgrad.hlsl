@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+//
 // Surface gradient based bump mapping: the functions of include/surfgrad in HLSL.
 //
 // One self-contained file, for shader model 5.0 and newer (FXC, DXC, glslang; any stage): #include it.
@@ -1122,7 +1124,7 @@ float surfgrad_detail_bit_field(uint word, uint first, uint count) {
 }
 
 float3 surfgrad_detail_saturate_to_lattice(float3 p) {
-  const float extent = float(SURFGRAD_NOISE_EXTENT);
+  float extent = float(SURFGRAD_NOISE_EXTENT);
   return clamp(p, -extent, extent);
 }
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+//
 // Surface gradient based bump mapping: the functions of include/surfgrad in WGSL.
 //
 // One self-contained file, for any stage: join it to your source (WGSL has no #include), or import it where

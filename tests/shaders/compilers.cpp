@@ -51,8 +51,11 @@ std::string library(const std::string& name) {
 Verdict compile_glsl(const std::string& text, const std::string& stage) {
   const TemporaryFolder folder;
   const std::string file = folder.write("shader." + stage, text).string();
-  const bool is_es = text.find(" es\n") < text.find('\n') + 1;
-  return is_es ? run_glslang("-S " + stage, file) : compile_for_vulkan(folder, "-S " + stage, file);
+  const Verdict parsed = run_glslang("-S " + stage, file);
+  const bool is_es = text.substr(0, text.find('\n')).ends_with(" es");
+  return is_es || !parsed.accepted || !parsed.messages.empty()
+             ? parsed
+             : compile_for_vulkan(folder, "-S " + stage, file);
 }
 
 Verdict compile_glsl_file(const std::string& file, const std::string& stage) {

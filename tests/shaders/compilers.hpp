@@ -15,8 +15,8 @@ struct Verdict {
 /// A file of shaders/, "surfgrad.glsl".
 [[nodiscard]] std::string library(const std::string& name);
 
-/// GLSL with its #version line; stage: vert, frag, comp. A desktop version becomes SPIR-V for Vulkan 1.1,
-/// which is validated; an ES version is parsed as OpenGL ES.
+/// GLSL with its #version line; stage: vert, frag, comp. An ES version is parsed for OpenGL ES; a desktop
+/// version is parsed for OpenGL and becomes SPIR-V for Vulkan 1.1, which is validated.
 [[nodiscard]] Verdict compile_glsl(const std::string& text, const std::string& stage);
 
 /// A GLSL file of the project, by its path there, that includes files of shaders/.
