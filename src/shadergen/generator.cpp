@@ -105,7 +105,7 @@ void Generator::need_footprint() {
 std::string Generator::parameter(const std::string& name, Parameter::Type type, const std::string& what,
                                  std::vector<double> value) {
   add_parameter(shader_, layer_ + "_" + name, type, meaning(what), std::move(value));
-  return "stack." + shader_.parameters.back().name;
+  return fmt::format("stack_parameters.{}", shader_.parameters.back().name);
 }
 
 std::string Generator::parameter(const std::string& name, const std::string& what, double value) {

@@ -273,7 +273,7 @@ std::string comment_block(const Options& options, const Shader& shader) {
 bool is_name(std::string_view text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  return !text.empty() && text[0] >= 'a' && text[0] <= 'z' &&
+  return !text.empty() && text != "surfgrad" && text[0] >= 'a' && text[0] <= 'z' &&
          std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
 }
 

@@ -199,7 +199,7 @@ struct ExactMap {
 };
 static_assert(sizeof(ExactMap) == 32);
 
-/// Whether identifiers may begin so: Options::name.
+/// Whether identifiers may begin so (Options::name): not as the library's do.
 [[nodiscard]] bool is_name(std::string_view text);
 
 /// The code of the layers of one material.

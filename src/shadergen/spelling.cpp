@@ -84,7 +84,7 @@ class Speller {
         const bool operates = t.text == "product" || (t.text == "select" && language_ != Language::wgsl);
         out += operates && !stands_alone(out, end + 1, to) ? fmt::format("({})", made) : made;
         i = end;
-      } else if (t.text == "stack" && language_ == Language::godot && tokens_[i + 1].text == ".") {
+      } else if (t.text == "stack_parameters" && language_ == Language::godot && tokens_[i + 1].text == ".") {
         out += "stack_"; // uniforms of Godot are members of nothing
         ++i;
       } else {
@@ -340,7 +340,7 @@ std::string renamed(std::string_view code, std::string_view name, std::string_vi
     const std::string_view t = tokens[i].text;
     if (tokens[i].kind != Kind::word) {
       out += t;
-    } else if (t == common || t.starts_with("stack_")) {
+    } else if (t.starts_with("stack_")) {
       out += std::string(name) + std::string(t.substr(common.size()));
     } else if (t.starts_with(common_type)) {
       out += std::string(type_name) + std::string(t.substr(common_type.size()));
