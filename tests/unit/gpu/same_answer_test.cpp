@@ -3,6 +3,7 @@
 
 #include "bake/bake.hpp"
 #include "gallery/figures.hpp"
+#include "golden/golden_scenes.hpp"
 #include "gpu/backend.hpp"
 #include "render/render.hpp"
 #include "support/vulkan.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -88,37 +90,56 @@ bool has_heights(const std::string& figure) {
   return figure.find("heights") != std::string::npos || figure.find("parallax") != std::string::npos;
 }
 
+/// The largest angles of a test's scenes.
+class Largest {
+ public:
+  ~Largest() {
+    std::printf("  %d scenes; largest mean %.2g, 99.9 %% %.2g, worst %.2g degrees\n", scenes_, angles_.mean,
+                angles_.usual, angles_.worst);
+    EXPECT_GT(scenes_, 0);
+  }
+  /// Renders a scene on both.
+  void compare(const gpu::Backend& backend, const scene::Scene& scene, const std::string& where) {
+    render::Options options{.width = 64, .height = 64, .aov = render::Aov::normal};
+    const render::Picture expected = render::render(scene, options);
+    options.backend = &backend;
+    const render::Picture got = render::render(scene, options);
+    const Agreement a = agreement(expected.image, got.image);
+    EXPECT_GT(a.count, 500u) << where << " shows next to nothing";
+    EXPECT_LT(a.mean, most_mean) << where;
+    EXPECT_LT(a.usual, most_usual) << where;
+    EXPECT_EQ(got.covered, expected.covered) << where;
+    EXPECT_EQ(got.degenerate, expected.degenerate) << where;
+    angles_.mean = std::max(angles_.mean, a.mean);
+    angles_.usual = std::max(angles_.usual, a.usual);
+    angles_.worst = std::max(angles_.worst, a.worst);
+    ++scenes_;
+  }
+
+ private:
+  Agreement angles_{};
+  int scenes_ = 0;
+};
+
 /// Renders the figures with heights, or the others, on both.
-void expect_the_same_pictures(const gpu::Backend& backend, bool with_heights) {
-  int panels = 0;
-  Agreement worst;
+void compare_figures(const gpu::Backend& backend, bool with_heights) {
+  Largest largest;
   for (const gallery::Figure& figure : gallery::built_in_figures())
     for (const gallery::Panel& panel : figure.panels) {
       if (has_heights(figure.id) != with_heights) continue;
       if (&panel != &figure.panels.front() && !differs_in_layers(figure.id)) continue;
-      const scene::Scene scene = panel.scene();
-      render::Options options{.width = 64, .height = 64, .aov = render::Aov::normal};
-      const render::Picture expected = render::render(scene, options);
-      options.backend = &backend;
-      const render::Picture got = render::render(scene, options);
-      const Agreement a = agreement(expected.image, got.image);
-      const std::string where = figure.id + ", " + panel.id;
-      EXPECT_GT(a.count, 500u) << where << " shows next to nothing";
-      EXPECT_LT(a.mean, most_mean) << where;
-      EXPECT_LT(a.usual, most_usual) << where;
-      EXPECT_EQ(got.covered, expected.covered) << where;
-      EXPECT_EQ(got.degenerate, expected.degenerate) << where;
-      worst.mean = std::max(worst.mean, a.mean);
-      worst.usual = std::max(worst.usual, a.usual);
-      worst.worst = std::max(worst.worst, a.worst);
-      ++panels;
+      largest.compare(backend, panel.scene(), figure.id + ", " + panel.id);
     }
-  std::printf("  %d panels; largest mean %.2g, 99.9 %% %.2g, worst %.2g degrees\n", panels, worst.mean,
-              worst.usual, worst.worst);
 }
 
-TEST_F(SameAnswer, RendersTheGallerysHeights) { expect_the_same_pictures(backend(), true); }
-TEST_F(SameAnswer, RendersTheRestOfTheGallery) { expect_the_same_pictures(backend(), false); }
+TEST_F(SameAnswer, RendersTheGallerysHeights) { compare_figures(backend(), true); }
+TEST_F(SameAnswer, RendersTheRestOfTheGallery) { compare_figures(backend(), false); }
+
+TEST_F(SameAnswer, RendersRealModels) {
+  if (!std::filesystem::exists(shared_assets())) GTEST_SKIP() << "no real assets at " << shared_assets();
+  Largest largest;
+  for (const GoldenScene& golden : golden_scenes()) largest.compare(backend(), load(golden), golden.name);
+}
 
 TEST_F(SameAnswer, BakesTheDemoInEverySpace) {
   const scene::Scene scene = scene::demo_scene();
