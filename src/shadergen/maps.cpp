@@ -278,13 +278,16 @@ std::string MapUse::slope_function() const {
   const std::vector<Place> where = places();
   std::string rest;
   if (where.size() == 1) {
-    rest = fmt::format("  return {};\n", along_coordinate(slope(where[0])));
+    const bool as_it_is = along_coordinate("slope") == "slope";
+    rest = as_it_is ? fmt::format("  return {};\n", slope(where[0]))
+                    : fmt::format("  vec2 slope = {};\n  return {};\n", slope(where[0]),
+                                  along_coordinate("slope"));
   } else {
     rest = "  vec2 slopes[3];\n";
     for (std::size_t k = 0; k < 3; ++k) rest += fmt::format("  slopes[{}] = {};\n", k, slope(where[k]));
     // The steeper tiles prevail.
-    rest += fmt::format("  vec2 slope = surfgrad_hex_derivative(tiles, surfgrad_hex_weights(tiles, slopes, "
-                        "7.0, 1.5), slopes);\n"
+    rest += fmt::format("  vec3 weights = surfgrad_hex_weights(tiles, slopes, 7.0, 1.5);\n"
+                        "  vec2 slope = surfgrad_hex_derivative(tiles, weights, slopes);\n"
                         "  return {};\n",
                         along_coordinate("slope"));
   }
