@@ -21,7 +21,7 @@ const char* const program = R"(
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 1) buffer Picture { vec4 pixels[]; };
 void main() {
-  vec2 p = (vec2(gl_GlobalInvocationID.xy) + 0.5) / 128.0 - 1.0;
+  vec2 p = (vec2(gl_GlobalInvocationID.x, 255u - gl_GlobalInvocationID.y) + 0.5) / 128.0 - 1.0;
   float z = sqrt(max(1.0 - dot(p, p), 0.0));
   StackSurface s;
   s.position = s.world_position = s.normal = vec3(p, z);
