@@ -220,7 +220,8 @@ std::string fragment_function(Generator& g, const std::string& frame, const Opti
   if (options.diagnostics)
     text += "  bool degenerate = s.normal_is_absent || surfgrad_max_abs(frame.normal) == 0.0;\n";
   if (shader.has_sunlight) text += "  float sunlight = 1.0;\n";
-  text += g.body();
+  // A layer's comment follows an empty line, but at the beginning.
+  text += text.ends_with("{\n") && !g.body().empty() ? g.body().substr(1) : g.body();
   text += fmt::format("\n  StackResult result;\n  result.normal = {};\n", normal);
   for (const std::string& name : moved_members(shader)) text += fmt::format("  result.{0} = s.{0};\n", name);
   if (shader.has_sunlight) text += "  result.sunlight = sunlight;\n";

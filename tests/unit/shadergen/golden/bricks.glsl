@@ -48,7 +48,6 @@ vec2 bricks_layer0_map_slope(vec2 st, vec2 dst_dx, vec2 dst_dy) {
 
 // The normal that the layers make of a surface's.
 BricksResult bricks_normal(BricksSurface s) {
-
   // layers[0]: normal_map bricks_n.png
   vec2 slope = (bricks_parameters.layer0_opacity * bricks_parameters.layer0_scale)
       * bricks_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);

@@ -40,7 +40,6 @@ float2 bricks_layer0_map_slope(float2 st, float2 dst_dx, float2 dst_dy) {
 
 // The normal that the layers make of a surface's.
 BricksResult bricks_normal(BricksSurface s) {
-
   // layers[0]: normal_map bricks_n.png
   float2 slope = (bricks_parameters.layer0_opacity * bricks_parameters.layer0_scale)
       * bricks_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);

@@ -37,7 +37,6 @@ fn bricks_layer0_map_slope(st: vec2f, dst_dx: vec2f, dst_dy: vec2f) -> vec2f {
 
 // The normal that the layers make of a surface's.
 fn bricks_normal(s: BricksSurface) -> BricksResult {
-
   // layers[0]: normal_map bricks_n.png
   let slope: vec2f = (bricks_parameters.layer0_opacity * bricks_parameters.layer0_scale)
       * bricks_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
