@@ -90,7 +90,12 @@ void run(const ShaderCommand& command) {
   job.origin = command.origin.value_or(usual_origin(job.language));
   job.displace = scene.displace ? &*scene.displace : nullptr;
   job.document = scene.source;
-  job.facts_of = [&](const stack::FileName& file) { return facts_of(scene.image(file.path)); };
+  std::map<std::filesystem::path, shadergen::FileFacts> facts; // asked for more than once
+  job.facts_of = [&](const stack::FileName& file) {
+    const auto [known, is_new] = facts.try_emplace(file.path);
+    if (is_new) known->second = facts_of(scene.image(file.path));
+    return known->second;
+  };
   const shadergen::Shader shader = shadergen::generate(material.layers, job);
   const std::string manifest = shadergen::manifest(shader);
   {

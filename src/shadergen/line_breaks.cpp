@@ -9,7 +9,8 @@ namespace {
 /// Where the first part of a line that is too long best ends: at a comma or before an operator outside as
 /// many brackets as possible, and as late as possible. 0 where there is no such place.
 std::size_t best_end(std::string_view line, std::size_t indent) {
-  static constexpr std::array<std::string_view, 6> operators{" + ", " - ", " && ", " || ", " ? ", " : "};
+  static constexpr std::array<std::string_view, 7> operators{" + ",  " - ", " * ", " && ",
+                                                             " || ", " ? ", " : "};
   std::size_t best = 0;
   int least_depth = 1 << 20, depth = 0;
   for (std::size_t i = indent; i < std::min(line.size(), most_columns); ++i) {
@@ -27,14 +28,33 @@ std::size_t best_end(std::string_view line, std::size_t indent) {
   return best;
 }
 
+std::string next_line(std::string_view& code) {
+  const std::size_t end = std::min(code.find('\n'), code.size());
+  const std::string line(code.substr(0, end));
+  code.remove_prefix(std::min(end + 1, code.size()));
+  return line;
+}
+
+/// Whether a statement goes on in the next line.
+bool continues(const std::string& line) {
+  if (line.empty() || line.find("//") != std::string::npos || line.find('#') != std::string::npos)
+    return false;
+  if (std::string_view("{};").find(line.back()) != std::string_view::npos) return false;
+  // Members of a struct end in a comma in WGSL.
+  return line.back() != ',' ||
+         std::count(line.begin(), line.end(), '(') > std::count(line.begin(), line.end(), ')');
+}
+
 } // namespace
 
 std::string with_line_breaks(std::string_view code) {
   std::string result;
   while (!code.empty()) {
-    const std::size_t end = std::min(code.find('\n'), code.size());
-    std::string line(code.substr(0, end));
-    code.remove_prefix(std::min(end + 1, code.size()));
+    std::string line = next_line(code);
+    while (continues(line) && !code.empty()) {
+      const std::string rest = next_line(code);
+      line += ' ' + rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
+    }
     const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
     const std::size_t remark = line.find("//");
     const bool is_code = remark == std::string::npos && line.find('#') == std::string::npos;

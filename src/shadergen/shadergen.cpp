@@ -131,7 +131,7 @@ std::string_view remark_on(Role role) {
   case Role::object_position:
     return "in the object's space, before any displacement";
   case Role::world_position:
-    return "the same in world space";
+    return "world space, before any displacement";
   case Role::world_from_object:
     return "linear part of the object's transform";
   case Role::object_from_world:
@@ -220,7 +220,8 @@ std::string fragment_function(Generator& g, const std::string& frame, const Opti
   if (options.diagnostics)
     text += "  bool degenerate = s.normal_is_absent || surfgrad_max_abs(frame.normal) == 0.0;\n";
   if (shader.has_sunlight) text += "  float sunlight = 1.0;\n";
-  text += g.body();
+  // A layer's comment follows an empty line, but at the beginning.
+  text += text.ends_with("{\n") && !g.body().empty() ? g.body().substr(1) : g.body();
   text += fmt::format("\n  StackResult result;\n  result.normal = {};\n", normal);
   for (const std::string& name : moved_members(shader)) text += fmt::format("  result.{0} = s.{0};\n", name);
   if (shader.has_sunlight) text += "  result.sunlight = sunlight;\n";
@@ -255,16 +256,18 @@ Common written(const std::vector<stack::Layer>& layers, const Options& options, 
   return common;
 }
 
-std::string comment_block(const Options& options, const Shader& shader) {
+std::string comment_block(const Options& options, const Shader& shader, bool differentiates) {
   const std::string file = options.document.empty() ? "a stack" : options.document.filename().string();
-  std::string text =
-      fmt::format("// The bump layers of {}, written by surfgrad.\n//\n"
-                  "//   StackResult r = stack_normal(s); // StackSurface s: what the layers read\n",
-                  file);
-  if (shader.language == Language::glsl || shader.language == Language::hlsl)
-    text += "//\n// In fragment shaders define SURFGRAD_FRAGMENT before this: stack_with_derivatives(s) then "
-            "fills in the\n"
-            "// derivatives.\n";
+  std::string text = fmt::format("// The bump layers of {0}, written by surfgrad.\n"
+                                 "//\n"
+                                 "//   {2}Surface s; // what the layers read: fill it in\n"
+                                 "//   {2}Result r = {1}_normal(s);\n",
+                                 file, shader.name, shader.type_name);
+  if (differentiates && (shader.language == Language::glsl || shader.language == Language::hlsl))
+    text += fmt::format("//\n// In fragment shaders define SURFGRAD_FRAGMENT before this: "
+                        "{}_with_derivatives(s) then gives s its\n"
+                        "// derivatives.\n",
+                        shader.name);
   return text + "\n";
 }
 
@@ -326,7 +329,7 @@ Shader generate(const std::vector<stack::Layer>& layers, const Options& options)
   } else {
     library = fmt::format("#include \"{}\"\n\n", library_name(options.language));
   }
-  shader.source = renamed(comment_block(options, shader), shader.name, shader.type_name) + library +
+  shader.source = comment_block(options, shader, !common.fragment_only.empty()) + library +
                   with_line_breaks(renamed(code, shader.name, shader.type_name));
   for (TextureBinding& t : shader.textures) {
     t.name = renamed(t.name, shader.name, shader.type_name);

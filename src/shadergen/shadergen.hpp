@@ -94,7 +94,7 @@ struct TextureBinding {
   stack::Wrap wrap_s = stack::Wrap::repeat, wrap_t = stack::Wrap::repeat;
   stack::Filter filter = stack::Filter::trilinear;
   int anisotropy = 1;                                    ///< most probes
-  stack::Channels channels = stack::Channels::automatic; ///< slopes, normals: as the layer says
+  stack::Channels channels = stack::Channels::automatic; ///< slopes, normals; hardware: never automatic
   stack::Green green = stack::Green::up;                 ///< slopes, normals, derivatives, directions
   stack::DerivativeCode code{};                          ///< derivatives
   stack::MaskChannel channel = stack::MaskChannel::r;    ///< heights, height_slopes, weights, relief

@@ -1,8 +1,9 @@
 // The bump layers of bricks.json, written by surfgrad.
 //
-//   StackResult r = stack_normal(s); // StackSurface s: what the layers read
+//   BricksSurface s; // what the layers read: fill it in
+//   BricksResult r = bricks_normal(s);
 //
-// In fragment shaders define SURFGRAD_FRAGMENT before this: stack_with_derivatives(s) then fills in the
+// In fragment shaders define SURFGRAD_FRAGMENT before this: bricks_with_derivatives(s) then gives s its
 // derivatives.
 
 #include "surfgrad.glsl"
@@ -47,9 +48,9 @@ vec2 bricks_layer0_map_slope(vec2 st, vec2 dst_dx, vec2 dst_dy) {
 
 // The normal that the layers make of a surface's.
 BricksResult bricks_normal(BricksSurface s) {
-
   // layers[0]: normal_map bricks_n.png
-  vec2 slope = (bricks_parameters.layer0_opacity * bricks_parameters.layer0_scale) * bricks_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
+  vec2 slope = (bricks_parameters.layer0_opacity * bricks_parameters.layer0_scale)
+      * bricks_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
 
   BricksResult result;
   result.normal = (s.front_facing ? 1.0 : -1.0) * surfgrad_resolve_mikktspace(s.normal, s.tangent0.xyz,

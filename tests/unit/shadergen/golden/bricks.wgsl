@@ -1,6 +1,7 @@
 // The bump layers of bricks.json, written by surfgrad.
 //
-//   StackResult r = stack_normal(s); // StackSurface s: what the layers read
+//   BricksSurface s; // what the layers read: fill it in
+//   BricksResult r = bricks_normal(s);
 
 // Needs surfgrad.wgsl: join it to this file.
 
@@ -36,9 +37,9 @@ fn bricks_layer0_map_slope(st: vec2f, dst_dx: vec2f, dst_dy: vec2f) -> vec2f {
 
 // The normal that the layers make of a surface's.
 fn bricks_normal(s: BricksSurface) -> BricksResult {
-
   // layers[0]: normal_map bricks_n.png
-  let slope: vec2f = (bricks_parameters.layer0_opacity * bricks_parameters.layer0_scale) * bricks_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
+  let slope: vec2f = (bricks_parameters.layer0_opacity * bricks_parameters.layer0_scale)
+      * bricks_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
 
   var result: BricksResult;
   result.normal = select(-1.0, 1.0, s.front_facing) * surfgrad_resolve_mikktspace(s.normal, s.tangent0.xyz,

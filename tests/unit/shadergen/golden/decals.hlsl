@@ -1,8 +1,9 @@
 // The bump layers of decals.json, written by surfgrad.
 //
-//   StackResult r = stack_normal(s); // StackSurface s: what the layers read
+//   DecalsSurface s; // what the layers read: fill it in
+//   DecalsResult r = decals_normal(s);
 //
-// In fragment shaders define SURFGRAD_FRAGMENT before this: stack_with_derivatives(s) then fills in the
+// In fragment shaders define SURFGRAD_FRAGMENT before this: decals_with_derivatives(s) then gives s its
 // derivatives.
 
 #include "surfgrad.hlsl"
@@ -246,8 +247,8 @@ float3 decals_layer4_decals(DecalsSurface s, SurfgradFrame frame, float3 at, flo
         decals_parameters.layer4_falloff);
     if (place.inside) {
       float3 q = decals_in_decal(decal.frame, place.unchanging, at - decal.frame.origin
-          - clamp(dot(at - decal.frame.origin, decal.frame.axis_x), -decal.half_length,
-          decal.half_length) * decal.frame.axis_x);
+          - clamp(dot(at - decal.frame.origin, decal.frame.axis_x), -decal.half_length, decal.half_length)
+          * decal.frame.axis_x);
       float3 q_dx = decals_in_decal(decal.frame, place.unchanging, dp_dx);
       float3 q_dy = decals_in_decal(decal.frame, place.unchanging, dp_dy);
       float3 n = (2.0 * decals_layer4_map.SampleGrad(decals_sampler2, q, q_dx, q_dy).xyz - 1.0);
@@ -296,7 +297,8 @@ DecalsResult decals_normal(DecalsSurface s) {
 
   // layers[0]: normal_map n.png
   SurfgradTangentFrame basis0 = surfgrad_mikktspace_basis(s.normal, s.tangent0.xyz, s.tangent0.w);
-  float2 slope = (decals_parameters.layer0_opacity * decals_parameters.layer0_scale) * decals_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
+  float2 slope = (decals_parameters.layer0_opacity * decals_parameters.layer0_scale)
+      * decals_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
 
   // layers[1]: decal rivet_n.png
   float3 object_at = mul(s.object_from_world, s.position - s.object_origin);

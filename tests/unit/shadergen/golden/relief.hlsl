@@ -1,8 +1,9 @@
 // The bump layers of relief.json, written by surfgrad.
 //
-//   StackResult r = stack_normal(s); // StackSurface s: what the layers read
+//   ReliefSurface s; // what the layers read: fill it in
+//   ReliefResult r = relief_normal(s);
 //
-// In fragment shaders define SURFGRAD_FRAGMENT before this: stack_with_derivatives(s) then fills in the
+// In fragment shaders define SURFGRAD_FRAGMENT before this: relief_with_derivatives(s) then gives s its
 // derivatives.
 
 #include "surfgrad.hlsl"
@@ -43,8 +44,8 @@ SurfgradTangentFrame relief_rebased_basis(SurfgradFrame frame, SurfgradTangentFr
   // Removing the part along the normal leaves rounding, which points anywhere.
   float rounding = 8.0 * SURFGRAD_EPSILON * surfgrad_max_abs(vertex.tangent);
   SurfgradTangentFrame basis;
-  basis.tangent =
-      rounding < surfgrad_max_abs(along) ? surfgrad_normalize_or_zero(along) : float3(0.0, 0.0, 0.0);
+  basis.tangent = rounding < surfgrad_max_abs(along) ? surfgrad_normalize_or_zero(along)
+      : float3(0.0, 0.0, 0.0);
   float3 bitangent = cross(frame.normal, basis.tangent);
   basis.bitangent = (dot(bitangent, vertex.bitangent) < 0.0 ? -1.0 : 1.0) * bitangent;
   return basis;
@@ -56,8 +57,8 @@ bool relief_collapsed(float2 dst_dx, float2 dst_dy, float3 dp_dx, float3 dp_dy) 
   float2 t = surfgrad_reciprocal_or_zero(surfgrad_max_abs(dst_dy)) * dst_dy;
   float3 x = surfgrad_reciprocal_or_zero(surfgrad_max_abs(dp_dx)) * dp_dx;
   float3 y = surfgrad_reciprocal_or_zero(surfgrad_max_abs(dp_dy)) * dp_dy;
-  return !(SURFGRAD_EPSILON < abs(s.x * t.y - s.y * t.x)) ||
-         !(SURFGRAD_EPSILON < surfgrad_max_abs(cross(x, y)));
+  return !(SURFGRAD_EPSILON < abs(s.x * t.y - s.y * t.x))
+      || !(SURFGRAD_EPSILON < surfgrad_max_abs(cross(x, y)));
 }
 
 // How much of a slope comes from the smooth surface: all where the map is magnified, none from half a level of
@@ -126,8 +127,7 @@ float3 relief_reflected(float3 normal, float3 to_viewer, float side) {
 
 // The pixel's footprint on the plane through the point that lies in the relief.
 SurfgradScreenDerivatives relief_relief_footprint(SurfgradFrame base, float3 surfgrad, float3 plane,
-    float3 position,
-                                                 float4x4 relative_from_screen, float2 raster) {
+    float3 position, float4x4 relative_from_screen, float2 raster) {
   SurfgradScreenDerivatives dp;
   if (dot(abs(relative_from_screen[3]) + abs(relative_from_screen[0]), float4(1.0, 1.0, 1.0, 1.0)) > 0.0) {
     dp = surfgrad_screen_derivatives(position, plane, relative_from_screen, raster.x, raster.y);
@@ -141,7 +141,7 @@ SurfgradScreenDerivatives relief_relief_footprint(SurfgradFrame base, float3 sur
 
 // Texture coordinates there are those of the base point below.
 SurfgradTextureDerivatives relief_relief_derivatives(SurfgradFrame base, float2 dst_dx, float2 dst_dy,
-                                                    SurfgradScreenDerivatives dp) {
+    SurfgradScreenDerivatives dp) {
   float3 grad_s = surfgrad_from_height_derivative(base, float2(dst_dx.x, dst_dy.x));
   float3 grad_t = surfgrad_from_height_derivative(base, float2(dst_dx.y, dst_dy.y));
   return surfgrad_projected_derivatives(grad_s, grad_t, dp.dp_dx, dp.dp_dy);
@@ -154,7 +154,7 @@ struct ReliefSurface {
   float3 dp_dx; // change of position per pixel along x
   float3 dp_dy; // and along y
   bool front_facing; // of an object whose transform mirrors: the opposite
-  float3 world_position; // the same in world space
+  float3 world_position; // world space, before any displacement
   float3 to_viewer; // unit; zero where nobody looks
   float3 to_sun; // unit; zero without a sun
   float2 raster; // pixel coordinate, centres at .5
@@ -216,13 +216,13 @@ float relief_layer0_map_texel(int x, int y) { return relief_layer0_map.Load(int3
 float2 relief_layer0_map_smooth_slope(float2 at) {
   float2 size = relief_texture_size(relief_layer0_map);
   ReliefTaps x = relief_cubic_taps(at.x, size.x, 0);
-  int x0 = relief_wrapped(int(x.low) + -1, int(size.x), 0);
-  int x1 = relief_wrapped(int(x.low) + 0, int(size.x), 0);
+  int x0 = relief_wrapped(int(x.low) - 1, int(size.x), 0);
+  int x1 = relief_wrapped(int(x.low), int(size.x), 0);
   int x2 = relief_wrapped(int(x.low) + 1, int(size.x), 0);
   int x3 = relief_wrapped(int(x.low) + 2, int(size.x), 0);
   ReliefTaps y = relief_cubic_taps(at.y, size.y, 0);
-  int y0 = relief_wrapped(int(y.low) + -1, int(size.y), 0);
-  int y1 = relief_wrapped(int(y.low) + 0, int(size.y), 0);
+  int y0 = relief_wrapped(int(y.low) - 1, int(size.y), 0);
+  int y1 = relief_wrapped(int(y.low), int(size.y), 0);
   int y2 = relief_wrapped(int(y.low) + 1, int(size.y), 0);
   int y3 = relief_wrapped(int(y.low) + 2, int(size.y), 0);
   float pivot = relief_layer0_map_texel(x1, y1);
@@ -244,8 +244,8 @@ float2 relief_layer0_map_smooth_slope(float2 at) {
 float2 relief_layer0_map_taps(float2 at, float2 first, float2 step_x, float2 step_y, float2 dx, float2 dy,
     float lod) {
   float2 dh_dxy = surfgrad_derivative_from_heights(relief_layer0_map.SampleGrad(relief_sampler0, first, dx,
-      dy).r, relief_layer0_map.SampleGrad(relief_sampler0, (first + step_x), dx, dy).r,
-      relief_layer0_map.SampleGrad(relief_sampler0, (first + step_y), dx, dy).r);
+      dy).r, relief_layer0_map.SampleGrad(relief_sampler0, first + step_x, dx, dy).r,
+      relief_layer0_map.SampleGrad(relief_sampler0, first + step_y, dx, dy).r);
   float share = relief_smooth_share(lod);
   if (share > 0.0) {
     float2 dh = relief_layer0_map_smooth_slope(at);
@@ -260,8 +260,8 @@ float2 relief_layer0_map_per_pixel(float2 st, float2 dst_dx, float2 dst_dy, floa
   float2 dy = relief_parameters.layer0_tile * dst_dy;
   float2 x = relief_parameters.layer0_tile * step_x;
   float2 y = relief_parameters.layer0_tile * step_y;
-  float lod = surfgrad_texture_lod(relief_parameters.layer0_tile * dst_dx,
-      relief_parameters.layer0_tile * dst_dy, relief_texture_size(relief_layer0_map));
+  float lod = surfgrad_texture_lod(relief_parameters.layer0_tile * dst_dx, relief_parameters.layer0_tile
+      * dst_dy, relief_texture_size(relief_layer0_map));
   return relief_layer0_map_taps(at, at, x, y, dx, dy, lod);
 }
 
@@ -308,7 +308,8 @@ ReliefResult relief_normal(ReliefSurface surface) {
   float sunlight = 1.0;
 
   // layers[0]: parallax h.png
-  float displacement = frame.resolve_sign * (relief_parameters.layer0_height * relief_parameters.layer0_opacity);
+  float displacement = frame.resolve_sign * (relief_parameters.layer0_height
+      * relief_parameters.layer0_opacity);
   float side = s.front_facing || dot(frame.normal, s.normal) < 0.0 ? 1.0 : -1.0;
   bool sound = surfgrad_max_abs(frame.normal) > 0.0 && !relief_collapsed(s.dst0_dx, s.dst0_dy, frame.dp_dx,
       frame.dp_dy);
@@ -373,14 +374,15 @@ ReliefResult relief_normal(ReliefSurface surface) {
   // layers[1]: normal_map n.png
   SurfgradTangentFrame basis1 = surfgrad_mikktspace_basis(s.normal, s.tangent1.xyz, s.tangent1.w);
   SurfgradTangentFrame basis1_2 = relief_rebased_basis(frame_2, basis1);
-  float2 slope = (relief_parameters.layer1_opacity * relief_parameters.layer1_scale) * relief_layer1_map_slope(s.st1, footprint1_dx, footprint1_dy);
+  float2 slope = (relief_parameters.layer1_opacity * relief_parameters.layer1_scale)
+      * relief_layer1_map_slope(s.st1, footprint1_dx, footprint1_dy);
 
   // layers[2]: noise
   float width = max(length(s.dp_dx), length(s.dp_dy));
   float3 gradient = relief_parameters.layer2_scale * relief_layer2_noise(s.world_position, width).gradient;
   float3 sum = surfgrad_from_tbn(slope, basis1_2.tangent, basis1_2.bitangent);
-  float3 sum_2 = sum + relief_parameters.layer2_opacity * surfgrad_from_volume_gradient(frame_2.normal,
-      gradient);
+  float3 sum_2 = sum + relief_parameters.layer2_opacity
+      * surfgrad_from_volume_gradient(frame_2.normal, gradient);
 
   ReliefResult result;
   result.normal = surfgrad_resolve_normal(frame_2, sum_2);
@@ -404,8 +406,8 @@ ReliefVertex relief_displaced(float3 position, float3 normal) {
   SurfgradNoise noise = relief_displace_noise(position, 0.0);
   float3 surfgrad = relief_parameters.displace_height * surfgrad_from_volume_gradient(n, noise.gradient);
   ReliefVertex v;
-  v.position = position + (relief_parameters.displace_height * (noise.value
-      - relief_parameters.displace_level)) * n;
+  v.position = position + (relief_parameters.displace_height
+      * (noise.value - relief_parameters.displace_level)) * n;
   v.normal = surfgrad_normalize_or_zero(n - surfgrad);
   return v;
 }

@@ -1,8 +1,9 @@
 // The bump layers of torus.json, written by surfgrad.
 //
-//   StackResult r = stack_normal(s); // StackSurface s: what the layers read
+//   TorusSurface s; // what the layers read: fill it in
+//   TorusResult r = torus_normal(s);
 //
-// In fragment shaders define SURFGRAD_FRAGMENT before this: stack_with_derivatives(s) then fills in the
+// In fragment shaders define SURFGRAD_FRAGMENT before this: torus_with_derivatives(s) then gives s its
 // derivatives.
 
 #include "surfgrad.glsl"
@@ -84,7 +85,8 @@ vec2 torus_layer0_map_slope(vec2 st, vec2 dst_dx, vec2 dst_dy) {
   vec2 at = torus_parameters.layer0_tile * st;
   vec2 dx = torus_parameters.layer0_tile * dst_dx;
   vec2 dy = torus_parameters.layer0_tile * dst_dy;
-  return sign(torus_parameters.layer0_tile) * surfgrad_derivative_from_normal(2.0 * textureGrad(torus_layer0_map, at, dx, dy).xyz - 1.0);
+  vec2 slope = surfgrad_derivative_from_normal(2.0 * textureGrad(torus_layer0_map, at, dx, dy).xyz - 1.0);
+  return sign(torus_parameters.layer0_tile) * slope;
 }
 
 float torus_layer1_mask_value(vec2 st, vec2 dst_dx, vec2 dst_dy) {
@@ -99,7 +101,8 @@ vec2 torus_layer3_map_slope(vec2 st, vec2 dst_dx, vec2 dst_dy) {
   vec2 at = surfgrad_rotate(torus_parameters.layer3_tile * st, torus_parameters.layer3_rotation);
   vec2 dx = surfgrad_rotate(torus_parameters.layer3_tile * dst_dx, torus_parameters.layer3_rotation);
   vec2 dy = surfgrad_rotate(torus_parameters.layer3_tile * dst_dy, torus_parameters.layer3_rotation);
-  return sign(torus_parameters.layer3_tile) * surfgrad_rotate_back(surfgrad_derivative_from_normal(2.0 * textureGrad(torus_layer1_map, at, dx, dy).xyz - 1.0), torus_parameters.layer3_rotation);
+  vec2 slope = surfgrad_derivative_from_normal(2.0 * textureGrad(torus_layer1_map, at, dx, dy).xyz - 1.0);
+  return sign(torus_parameters.layer3_tile) * surfgrad_rotate_back(slope, torus_parameters.layer3_rotation);
 }
 
 SurfgradNoise torus_layer4_noise(vec3 position, float width) {
@@ -130,7 +133,8 @@ TorusResult torus_normal(TorusSurface s) {
 
   // layers[0]: normal_map plates_n.png
   SurfgradTangentFrame basis0 = surfgrad_mikktspace_basis(s.normal, s.tangent0.xyz, s.tangent0.w);
-  vec2 slope = (torus_parameters.layer0_opacity * torus_parameters.layer0_scale) * torus_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
+  vec2 slope = (torus_parameters.layer0_opacity * torus_parameters.layer0_scale)
+      * torus_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
 
   // layers[1]: normal_map weave_n.png, stripes.png
   float mask = torus_layer1_mask_value(s.st0, s.dst0_dx, s.dst0_dy);
@@ -138,14 +142,16 @@ TorusResult torus_normal(TorusSurface s) {
   vec2 slope_2 = torus_layer1_map_slope(s.st1, s.dst1_dx, s.dst1_dy);
   vec3 sum = surfgrad_from_tbn(slope, basis0.tangent, basis0.bitangent);
   vec3 sum_2 = (1.0 - (torus_parameters.layer1_opacity * mask)) * sum
-      + ((torus_parameters.layer1_opacity * mask) * torus_parameters.layer1_scale) * surfgrad_from_tbn(slope_2, derived1.tangent, derived1.bitangent);
+      + ((torus_parameters.layer1_opacity * mask) * torus_parameters.layer1_scale)
+      * surfgrad_from_tbn(slope_2, derived1.tangent, derived1.bitangent);
 
   // layers[2]: resolve
   SurfgradFrame frame_2 = surfgrad_rebase_frame(frame, surfgrad_resolve_normal(frame, sum_2));
 
   // layers[3]: normal_map weave_n.png
   SurfgradTangentFrame derived1_2 = surfgrad_tangent_basis(frame_2, s.dst1_dx, s.dst1_dy);
-  vec2 slope_3 = (torus_parameters.layer3_opacity * torus_parameters.layer3_scale) * torus_layer3_map_slope(s.st1, s.dst1_dx, s.dst1_dy);
+  vec2 slope_3 = (torus_parameters.layer3_opacity * torus_parameters.layer3_scale)
+      * torus_layer3_map_slope(s.st1, s.dst1_dx, s.dst1_dy);
 
   // layers[4]: noise
   vec3 object_dp_dx = s.object_from_world * s.dp_dx;

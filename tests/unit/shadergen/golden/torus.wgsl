@@ -1,6 +1,7 @@
 // The bump layers of torus.json, written by surfgrad.
 //
-//   StackResult r = stack_normal(s); // StackSurface s: what the layers read
+//   TorusSurface s; // what the layers read: fill it in
+//   TorusResult r = torus_normal(s);
 
 // Needs surfgrad.wgsl: join it to this file.
 
@@ -73,7 +74,9 @@ fn torus_layer0_map_slope(st: vec2f, dst_dx: vec2f, dst_dy: vec2f) -> vec2f {
   let at: vec2f = torus_parameters.layer0_tile * st;
   let dx: vec2f = torus_parameters.layer0_tile * dst_dx;
   let dy: vec2f = torus_parameters.layer0_tile * dst_dy;
-  return sign(torus_parameters.layer0_tile) * surfgrad_derivative_from_normal(2.0 * textureSampleGrad(torus_layer0_map, torus_sampler0, at, dx, dy).xyz - 1.0);
+  let slope: vec2f = surfgrad_derivative_from_normal(2.0
+      * textureSampleGrad(torus_layer0_map, torus_sampler0, at, dx, dy).xyz - 1.0);
+  return sign(torus_parameters.layer0_tile) * slope;
 }
 
 fn torus_layer1_mask_value(st: vec2f, dst_dx: vec2f, dst_dy: vec2f) -> f32 {
@@ -89,7 +92,9 @@ fn torus_layer3_map_slope(st: vec2f, dst_dx: vec2f, dst_dy: vec2f) -> vec2f {
   let at: vec2f = surfgrad_rotate(torus_parameters.layer3_tile * st, torus_parameters.layer3_rotation);
   let dx: vec2f = surfgrad_rotate(torus_parameters.layer3_tile * dst_dx, torus_parameters.layer3_rotation);
   let dy: vec2f = surfgrad_rotate(torus_parameters.layer3_tile * dst_dy, torus_parameters.layer3_rotation);
-  return sign(torus_parameters.layer3_tile) * surfgrad_rotate_back(surfgrad_derivative_from_normal(2.0 * textureSampleGrad(torus_layer1_map, torus_sampler0, at, dx, dy).xyz - 1.0), torus_parameters.layer3_rotation);
+  let slope: vec2f = surfgrad_derivative_from_normal(2.0
+      * textureSampleGrad(torus_layer1_map, torus_sampler0, at, dx, dy).xyz - 1.0);
+  return sign(torus_parameters.layer3_tile) * surfgrad_rotate_back(slope, torus_parameters.layer3_rotation);
 }
 
 fn torus_layer4_noise(position: vec3f, width: f32) -> SurfgradNoise {
@@ -120,7 +125,8 @@ fn torus_normal(s: TorusSurface) -> TorusResult {
 
   // layers[0]: normal_map plates_n.png
   let basis0: SurfgradTangentFrame = surfgrad_mikktspace_basis(s.normal, s.tangent0.xyz, s.tangent0.w);
-  let slope: vec2f = (torus_parameters.layer0_opacity * torus_parameters.layer0_scale) * torus_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
+  let slope: vec2f = (torus_parameters.layer0_opacity * torus_parameters.layer0_scale)
+      * torus_layer0_map_slope(s.st0, s.dst0_dx, s.dst0_dy);
 
   // layers[1]: normal_map weave_n.png, stripes.png
   let mask: f32 = torus_layer1_mask_value(s.st0, s.dst0_dx, s.dst0_dy);
@@ -128,14 +134,16 @@ fn torus_normal(s: TorusSurface) -> TorusResult {
   let slope_2: vec2f = torus_layer1_map_slope(s.st1, s.dst1_dx, s.dst1_dy);
   let sum: vec3f = surfgrad_from_tbn(slope, basis0.tangent, basis0.bitangent);
   let sum_2: vec3f = (1.0 - (torus_parameters.layer1_opacity * mask)) * sum
-      + ((torus_parameters.layer1_opacity * mask) * torus_parameters.layer1_scale) * surfgrad_from_tbn(slope_2, derived1.tangent, derived1.bitangent);
+      + ((torus_parameters.layer1_opacity * mask) * torus_parameters.layer1_scale)
+      * surfgrad_from_tbn(slope_2, derived1.tangent, derived1.bitangent);
 
   // layers[2]: resolve
   let frame_2: SurfgradFrame = surfgrad_rebase_frame(frame, surfgrad_resolve_normal(frame, sum_2));
 
   // layers[3]: normal_map weave_n.png
   let derived1_2: SurfgradTangentFrame = surfgrad_tangent_basis(frame_2, s.dst1_dx, s.dst1_dy);
-  let slope_3: vec2f = (torus_parameters.layer3_opacity * torus_parameters.layer3_scale) * torus_layer3_map_slope(s.st1, s.dst1_dx, s.dst1_dy);
+  let slope_3: vec2f = (torus_parameters.layer3_opacity * torus_parameters.layer3_scale)
+      * torus_layer3_map_slope(s.st1, s.dst1_dx, s.dst1_dy);
 
   // layers[4]: noise
   let object_dp_dx: vec3f = (s.object_from_world * s.dp_dx);
@@ -143,7 +151,8 @@ fn torus_normal(s: TorusSurface) -> TorusResult {
   let width: f32 = max(length(object_dp_dx), length(object_dp_dy));
   let gradient: vec3f = torus_parameters.layer4_scale * torus_layer4_noise(s.object_position, width).gradient;
   let sum_3: vec3f = surfgrad_from_tbn(slope_3, derived1_2.tangent, derived1_2.bitangent);
-  let sum_4: vec3f = sum_3 + torus_parameters.layer4_opacity * torus_from_object_gradient(s.world_from_object, s.object_from_world, frame_2.normal, gradient);
+  let sum_4: vec3f = sum_3 + torus_parameters.layer4_opacity
+      * torus_from_object_gradient(s.world_from_object, s.object_from_world, frame_2.normal, gradient);
 
   var result: TorusResult;
   result.normal = surfgrad_resolve_normal(frame_2, sum_4);
