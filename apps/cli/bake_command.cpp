@@ -41,6 +41,8 @@ void run(BakeCommand& command) {
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
   check_output(output, depth);
   Console console("baking", command.common.quiet);
+  const ChosenDevice device(command.common.device);
+  command.job.backend = device.backend();
   on_threads(command.common.threads, [&] {
     const scene::Scene scene = open_scene(command.common, console.report());
     OutputFile file(output, {size.width, size.height, 3}, depth, command.common.compression);
@@ -49,6 +51,7 @@ void run(BakeCommand& command) {
     file.commit();
     if (command.common.json) {
       console.say_json({{"output", output.string()},
+                        {"device", device.name()},
                         {"width", size.width},
                         {"height", size.height},
                         {"covered_texels", baked.covered},

@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "console.hpp"
+#include "device.hpp"
 #include "diagnostic/error.hpp"
 #include "interrupt.hpp"
 
@@ -56,10 +57,12 @@ int main(int argc, char** argv) {
   program.footer("surfgrad VERB --help explains a verb.\n"
                  "Exit status: 0 done, 1 the input is wrong, 2 usage, 3 the machine lacks something\n"
                  "or an internal error. An interrupt leaves either the whole output or none.");
+  surfgrad::cli::add_device_list(program);
   surfgrad::cli::add_render_command(program);
   surfgrad::cli::add_bake_command(program);
   surfgrad::cli::add_displace_command(program);
   surfgrad::cli::add_gallery_command(program);
+  surfgrad::cli::add_shader_command(program);
   surfgrad::cli::note_interrupts();
   const int status = run(program, argc, argv);
   if (surfgrad::cli::interrupted()) surfgrad::cli::end_by_interrupt();

@@ -80,6 +80,7 @@ void add_common_options(CLI::App& verb, CommonOptions& options, const std::strin
       ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
       ->type_name("BITS");
   add_compress_option(verb, options.compression);
+  add_device_options(verb, options.device);
   add_job_options(verb, options.threads, options.quiet, options.json);
 }
 

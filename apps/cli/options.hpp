@@ -1,5 +1,6 @@
 #pragma once
 
+#include "device.hpp"
 #include "diagnostic/report.hpp"
 #include "image/image.hpp"
 #include "interrupt.hpp"
@@ -25,6 +26,7 @@ struct CommonOptions {
   int threads = 0; ///< 0: not given, as many as this process may use
   bool quiet = false;
   bool json = false;
+  DeviceOptions device{};
 };
 
 /// What every verb takes: threads, from 1 to as many as this process may use (0 stands for the option

@@ -38,6 +38,8 @@ void run(RenderCommand& command) {
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm8);
   check_output(output, depth);
   Console console("rendering", command.common.quiet);
+  const ChosenDevice device(command.common.device);
+  command.job.backend = device.backend();
   on_threads(command.common.threads, [&] {
     scene::Scene scene = open_scene(command.common, console.report());
     if (command.view) {
@@ -58,6 +60,7 @@ void run(RenderCommand& command) {
     file.commit();
     if (command.common.json) {
       console.say_json({{"output", output.string()},
+                        {"device", device.name()},
                         {"width", size.width},
                         {"height", size.height},
                         {"covered_samples", picture.covered},

@@ -31,9 +31,11 @@ class Bands {
  public:
   Bands(const stage::Stage& stage, const scene::Scene& scene, const Options& options)
       : scene_(scene), options_(options), slot_(stage.slot_of(0)),
+        tile_side_(options.backend != nullptr ? options.backend->tile_side() : stage::tile_side),
         projection_(raster::Projection::texture(slot_, options.width, options.height)),
-        composer_(stage, projection_, options.width, options.height, stage::tile_side, stage::tile_side,
-                  {.vertex_frame = options.space == Space::tangent, .slot = slot_}) {}
+        composer_(stage, projection_, options.width, options.height, tile_side_, tile_side_,
+                  {.vertex_frame = options.space == Space::tangent, .slot = slot_}),
+        own_([this] { return Own(static_cast<std::size_t>(tile_side_)); }) {}
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
   void make(int row, image::Image& band) {
@@ -56,12 +58,13 @@ class Bands {
  private:
   /// What one thread works with: the codes of a tile's pixels, and what it has counted.
   struct Own {
-    Counts counts;
-    std::vector<std::size_t> texel_of; ///< of the pixels of tiles of this size, from a tile's first on
+    explicit Own(std::size_t side) : length(side * side + most_lanes), codes(5 * length) {}
+    Counts counts{};
+    std::vector<std::size_t> texel_of{}; ///< of the pixels of tiles of this size, from a tile's first on
     int tile_width = 0;
     int tile_height = 0;
-    std::vector<float> codes = std::vector<float>(5 * length);
-    static constexpr std::size_t length = stage::tile_side * stage::tile_side + most_lanes;
+    std::size_t length;
+    std::vector<float> codes;
     float* array(std::size_t i) { return codes.data() + i * length; }
   };
 
@@ -112,6 +115,7 @@ class Bands {
   const scene::Scene& scene_;
   const Options& options_;
   std::size_t slot_;
+  int tile_side_;
   raster::Projection projection_;
   stage::TileComposer composer_;
   tbb::enumerable_thread_specific<Own> own_;
@@ -123,7 +127,7 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
                   const Report& report) {
   const auto displaced = displace::displaced(asked, report.at_the_start());
   const scene::Scene& scene = displaced ? displaced->scene : asked;
-  const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report);
+  const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report, options.backend);
   Bands bands(stage, scene, options);
   stage::for_each_band(
       bands.count(), report, [&](int row, image::Image& band) { bands.make(row, band); }, take);

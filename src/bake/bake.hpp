@@ -3,6 +3,7 @@
 #include "diagnostic/report.hpp"
 #include "image/image.hpp"
 #include "scene/scene.hpp"
+#include "stage/backend.hpp"
 #include "stage/bands.hpp"
 
 #include <cstdint>
@@ -20,6 +21,7 @@ struct Options {
   int width = 1024;
   int height = 1024;
   Space space = Space::tangent;
+  const stage::Backend* backend = nullptr; ///< composes in the engine's stead
 };
 
 /// What was odd about a bake.

@@ -166,35 +166,46 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags w
 
 void Device::run(const std::function<void(VkCommandBuffer)>& record) const {
   VkDevice const device = device_.get();
+  const std::string doing = fmt::format("run commands on \"{}\"", info_.name);
+  VkFenceCreateInfo fence_info{};
+  fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  VkFence made = VK_NULL_HANDLE;
+  check(vkCreateFence(device, &fence_info, nullptr, &made), doing);
+  const Handle<VkFence> fence(device, made, vkDestroyFence);
+
+  std::unique_lock lock(mutex_);
   VkCommandBufferAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
   allocate.commandPool = pool_.get();
   allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   allocate.commandBufferCount = 1;
   VkCommandBuffer commands = VK_NULL_HANDLE;
-  check(vkAllocateCommandBuffers(device, &allocate, &commands), "record commands");
-  // Freed on every way out; the device is idle by then, or lost.
+  check(vkAllocateCommandBuffers(device, &allocate, &commands), doing);
+  // Freed on every way out, under the lock; the commands are done by then, or the device is lost.
   struct Free {
-    VkDevice device;
-    VkCommandPool pool;
+    const Device& device;
+    std::unique_lock<std::mutex>& lock;
     VkCommandBuffer commands;
-    ~Free() { vkFreeCommandBuffers(device, pool, 1, &commands); }
-  } const free{device, pool_.get(), commands};
+    ~Free() {
+      if (!lock.owns_lock()) lock.lock();
+      vkFreeCommandBuffers(device.get(), device.pool_.get(), 1, &commands);
+    }
+  } const free{*this, lock, commands};
 
   VkCommandBufferBeginInfo begin{};
   begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  check(vkBeginCommandBuffer(commands, &begin), "record commands");
+  check(vkBeginCommandBuffer(commands, &begin), doing);
   record(commands);
-  check(vkEndCommandBuffer(commands), "record commands");
+  check(vkEndCommandBuffer(commands), doing);
 
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands;
-  const std::string doing = fmt::format("run commands on \"{}\"", info_.name);
-  check(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), doing);
-  check(vkQueueWaitIdle(queue_), doing);
+  check(vkQueueSubmit(queue_, 1, &submit, made), doing);
+  lock.unlock(); // others submit while these run
+  check(vkWaitForFences(device, 1, &made, VK_TRUE, UINT64_MAX), doing);
 }
 
 } // namespace surfgrad::gpu

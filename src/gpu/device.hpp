@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct DeviceOptions {
 
 /// A Vulkan device with one queue for computing; no window, no surface.
 ///
-/// What a device makes (buffers, textures, pipelines) must not outlive it. One thread at a time.
+/// What a device makes (buffers, textures, pipelines) must not outlive it.
 class Device {
  public:
   /// throws  MachineError where the device cannot be used: which feature it lacks
@@ -59,7 +60,7 @@ class Device {
   [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted,
                                           VkMemoryPropertyFlags liked = 0) const;
 
-  /// Records commands, runs them and waits until they are done.
+  /// Records commands, runs them and waits until they are done. Any number of threads at a time.
   ///
   /// throws  MachineError if the device is lost or runs out of memory
   void run(const std::function<void(VkCommandBuffer)>& record) const;
@@ -76,6 +77,7 @@ class Device {
   std::unique_ptr<VkDevice_T, Destroy> device_;
   VkQueue queue_ = VK_NULL_HANDLE;
   Handle<VkCommandPool> pool_;
+  mutable std::mutex mutex_; // of the queue and the pool
 };
 
 } // namespace surfgrad::gpu

@@ -5,16 +5,22 @@
 #include "gpu/texture.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace surfgrad::gpu {
 
-/// What a shader calls set = 0, binding = `number`.
+/// What a shader calls set = `set`, binding = `number`.
 struct Binding {
   std::uint32_t number = 0;
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   std::uint32_t count = 1; ///< of an array
+  std::uint32_t set = 0;
 };
 
 /// A compute shader, ready to run.
@@ -27,14 +33,26 @@ class ComputePipeline {
 
   [[nodiscard]] VkPipeline get() const { return pipeline_.get(); }
   [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
-  [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.get(); }
+  [[nodiscard]] std::vector<VkDescriptorSetLayout> set_layouts() const;
   [[nodiscard]] const std::vector<Binding>& bindings() const { return bindings_; }
 
  private:
   std::vector<Binding> bindings_;
-  Handle<VkDescriptorSetLayout> set_layout_;
+  std::vector<Handle<VkDescriptorSetLayout>> set_layouts_;
   Handle<VkPipelineLayout> layout_;
   Handle<VkPipeline> pipeline_;
+};
+
+/// Pipelines that were compiled, by the text of their shaders. Any number of threads.
+class PipelineCache {
+ public:
+  /// The pipeline of this text, made when it is first asked for.
+  [[nodiscard]] std::shared_ptr<const ComputePipeline>
+  pipeline(const std::string& text, const std::function<std::shared_ptr<const ComputePipeline>()>& make);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const ComputePipeline>> made_;
 };
 
 /// What a pipeline's bindings hold. All must be bound before a dispatch; what is bound must live through it.
@@ -42,8 +60,8 @@ class BoundResources {
  public:
   BoundResources(const Device& device, const ComputePipeline& pipeline);
 
-  void bind(std::uint32_t binding, const Buffer& buffer);
-  /// A combined image and sampler.
+  void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t set = 0);
+  /// A combined image and sampler of set 0.
   void bind(std::uint32_t binding, const Texture& texture, VkSampler sampler, std::uint32_t element = 0);
 
   /// Commands: runs the pipeline over `groups` workgroups.
@@ -53,12 +71,12 @@ class BoundResources {
                 std::span<const std::byte> constants = {}) const;
 
  private:
-  [[nodiscard]] VkDescriptorType type_of(std::uint32_t binding) const;
+  [[nodiscard]] VkDescriptorType type_of(std::uint32_t binding, std::uint32_t set) const;
 
   VkDevice device_;
   const ComputePipeline* pipeline_;
   Handle<VkDescriptorPool> pool_;
-  VkDescriptorSet set_ = VK_NULL_HANDLE; // freed with the pool
+  std::vector<VkDescriptorSet> sets_; // freed with the pool
 };
 
 } // namespace surfgrad::gpu

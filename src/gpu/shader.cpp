@@ -28,7 +28,9 @@ Spirv compile(const ShaderSource& source) {
                                                                     : shaderc_source_language_glsl);
   options.SetWarningsAsErrors();
   for (const auto& [name, value] : source.definitions) options.AddMacroDefinition(name, value);
-  const shaderc::Compiler compiler;
+  // One for all: the language's own functions are read when the first comes and forgotten with the last.
+  // Threads may share it.
+  static const shaderc::Compiler compiler;
   const shaderc::SpvCompilationResult result = compiler.CompileGlslToSpv(
       source.text.data(), source.text.size(), kind_of(source.stage), source.name.c_str(), "main", options);
   if (result.GetCompilationStatus() != shaderc_compilation_status_success)

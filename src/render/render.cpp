@@ -59,7 +59,8 @@ class Bands {
   Bands(const stage::Stage& stage, const raster::Projection& projection, const Options& options,
         const Shading* shading)
       : options_(options), shading_(shading), side_(samples_along_a_side(options)),
-        pixels_(std::max(1, stage::tile_side / side_)),
+        pixels_(std::max(1, (options.backend != nullptr ? options.backend->tile_side() : stage::tile_side) /
+                                side_)),
         composer_(stage, projection, options.width * side_, options.height * side_, pixels_ * side_,
                   pixels_ * side_, outputs_of(options.aov, options.aov == Aov::uv ? stage.slot_of(0) : 0)),
         values_([this] { return Values(static_cast<std::size_t>(pixels_ * side_ * pixels_ * side_)); }) {}
@@ -173,7 +174,7 @@ Counts render_bands(const scene::Scene& asked, const Options& options, const sta
   if (options.aov == Aov::beauty) shading.emplace(scene.lights, scene.environment.get());
   const stage::View view{camera.eye, camera.relative_from_screen(width, height),
                          shading ? shading->to_sun() : vec3<double>{0, 0, 0}};
-  const stage::Stage stage(scene, view, needed, report);
+  const stage::Stage stage(scene, view, needed, report, options.backend);
   const auto projection = raster::Projection::camera(camera.screen_from_relative(width, height), camera.near);
   Bands bands(stage, projection, options, shading ? &*shading : nullptr);
   stage::for_each_band(

@@ -3,6 +3,7 @@
 #include "diagnostic/report.hpp"
 #include "image/image.hpp"
 #include "scene/scene.hpp"
+#include "stage/backend.hpp"
 #include "stage/bands.hpp"
 
 #include <cstdint>
@@ -23,6 +24,7 @@ struct Options {
   int height = 1024;
   int samples = 3; ///< samples along each side of a pixel, for beauty
   Aov aov = Aov::beauty;
+  const stage::Backend* backend = nullptr; ///< composes in the engine's stead
 };
 
 /// What a picture's samples met.

@@ -46,8 +46,9 @@ std::string glsl(const Shader& shader, const Options& options) {
   std::string text;
   if (options.access == TextureAccess::exact) {
     if (!shader.parameters.empty())
-      text += fmt::format("layout(std140, set = 0, binding = {}) uniform StackParameters {{\n{}}} stack;\n\n",
-                          ExactLayout::parameters, member_lines(shader));
+      text += fmt::format(
+          "layout(std140, set = 0, binding = {}) uniform StackParameters {{\n{}}} stack_parameters;\n\n",
+          ExactLayout::parameters, member_lines(shader));
     if (shader.decal_count > 0)
       text += fmt::format("layout(std430, set = 0, binding = {}) readonly buffer StackDecals {{ vec4 "
                           "stack_decal_data[]; }};\n",
@@ -62,15 +63,16 @@ std::string glsl(const Shader& shader, const Options& options) {
             "#ifndef SURFGRAD_BINDING\n"
             "#ifdef GL_ES\n"
             "#define SURFGRAD_BINDING(n)\n"
-            "#define SURFGRAD_TEXTURE(n)\n"
+            "#define SURFGRAD_TEXTURE(n) uniform highp\n"
             "#else\n"
             "#define SURFGRAD_BINDING(n) , binding = n\n"
-            "#define SURFGRAD_TEXTURE(n) layout(binding = n)\n"
+            "#define SURFGRAD_TEXTURE(n) layout(binding = n) uniform\n"
             "#endif\n"
             "#endif\n\n";
     if (!shader.parameters.empty())
-      text += fmt::format("layout(std140 SURFGRAD_BINDING({})) uniform StackParameters {{\n{}}} stack;\n\n",
-                          shader.parameters_binding, member_lines(shader));
+      text += fmt::format(
+          "layout(std140 SURFGRAD_BINDING({})) uniform StackParameters {{\n{}}} stack_parameters;\n\n",
+          shader.parameters_binding, member_lines(shader));
     if (shader.decal_count > 0 && shader.decals_in_block)
       text += fmt::format(
           "layout(std140 SURFGRAD_BINDING({})) uniform StackDecals {{ vec4 stack_decal_data[{}]; }};\n",
@@ -81,7 +83,7 @@ std::string glsl(const Shader& shader, const Options& options) {
           "layout(std430 SURFGRAD_BINDING({})) readonly buffer StackDecals {{ vec4 stack_decal_data[]; }};\n",
           shader.decal_count, most_decals_es, shader.decals_binding);
     for (const TextureBinding& t : shader.textures)
-      text += fmt::format("SURFGRAD_TEXTURE({}) uniform highp {} {};\n", t.binding,
+      text += fmt::format("SURFGRAD_TEXTURE({}) {} {};\n", t.binding,
                           t.kind == MapKind::cube ? "samplerCube" : "sampler2D", t.name);
   }
   if (shader.decal_count > 0) text += "vec4 stack_decals(int i) { return stack_decal_data[i]; }\n";
@@ -92,7 +94,7 @@ std::string hlsl(const Shader& shader, std::string_view code) {
   std::string text;
   if (!shader.parameters.empty())
     text += fmt::format("struct StackParameters {{\n{}}};\n"
-                        "cbuffer StackBlock : register(b{}) {{ StackParameters stack; }};\n\n",
+                        "cbuffer StackBlock : register(b{}) {{ StackParameters stack_parameters; }};\n\n",
                         member_lines(shader), shader.parameters_binding);
   if (shader.decal_count > 0)
     text += fmt::format("StructuredBuffer<float4> stack_decal_data : register(t{});\n"
@@ -119,7 +121,7 @@ std::string wgsl(const Shader& shader) {
   std::string text;
   if (!shader.parameters.empty())
     text += fmt::format("struct StackParameters {{\n{}}}\n"
-                        "@group(0) @binding({}) var<uniform> stack: StackParameters;\n\n",
+                        "@group(0) @binding({}) var<uniform> stack_parameters: StackParameters;\n\n",
                         member_lines(shader), shader.parameters_binding);
   if (shader.decal_count > 0)
     text += fmt::format("@group(0) @binding({}) var<storage, read> stack_decal_data: array<vec4f>;\n"

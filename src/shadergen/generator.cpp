@@ -105,7 +105,7 @@ void Generator::need_footprint() {
 std::string Generator::parameter(const std::string& name, Parameter::Type type, const std::string& what,
                                  std::vector<double> value) {
   add_parameter(shader_, layer_ + "_" + name, type, meaning(what), std::move(value));
-  return "stack." + shader_.parameters.back().name;
+  return fmt::format("stack_parameters.{}", shader_.parameters.back().name);
 }
 
 std::string Generator::parameter(const std::string& name, const std::string& what, double value) {
@@ -124,11 +124,11 @@ Generator::Footprint Generator::footprint(int uv) {
   return {surface(Role::dst_dx, uv), surface(Role::dst_dy, uv)};
 }
 
-void Generator::begin_layer(const std::string& key, std::string_view kind) {
+void Generator::begin_layer(const std::string& key, std::string_view kind, const std::string& maps) {
   layer_ = fmt::format("layer{}", layer_count_++);
   layer_key_ = key;
   layer_kind_ = kind;
-  paragraph(fmt::format("{}: {}", key.empty() ? layer_ : key, kind));
+  paragraph(fmt::format("{}: {}{}{}", key.empty() ? layer_ : key, kind, maps.empty() ? "" : " ", maps));
 }
 
 void Generator::begin_part(const std::string& name) {

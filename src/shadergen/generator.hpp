@@ -76,8 +76,8 @@ class Generator {
 
   // The layers.
 
-  /// Every layer begins with this.
-  void begin_layer(const std::string& key, std::string_view kind);
+  /// Every layer begins with this. maps are the names of its files.
+  void begin_layer(const std::string& key, std::string_view kind, const std::string& maps);
   /// What is no layer: parameters begin with its name.
   void begin_part(const std::string& name);
   /// `layer3`: how identifiers of the current layer begin.

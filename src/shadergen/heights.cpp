@@ -39,12 +39,13 @@ namespace {
 std::string spline_lines(const MapUse& heights, Generator& g) {
   const std::string texel = texel_function(heights, g);
   std::string lines = fmt::format("  vec2 size = {};\n", heights.size());
+  constexpr const char* steps[] = {" - 1", "", " + 1", " + 2"}; // from the texel below the point
   const auto taps = [&](const char* axis, stack::Wrap wrap) {
     lines +=
         fmt::format("  StackTaps {0} = stack_cubic_taps(at.{0}, size.{0}, {1});\n", axis, number_of(wrap));
     for (int k = 0; k < 4; ++k)
-      lines += fmt::format("  int {0}{1} = stack_wrapped(int({0}.low) + {2}, int(size.{0}), {3});\n", axis, k,
-                           k - 1, number_of(wrap));
+      lines += fmt::format("  int {0}{1} = stack_wrapped(int({0}.low){2}, int(size.{0}), {3});\n", axis, k,
+                           steps[k], number_of(wrap));
   };
   taps("x", heights.binding().wrap_s);
   taps("y", heights.binding().wrap_t);
@@ -104,7 +105,7 @@ std::string height_per_pixel_function(const MapUse& map, Generator& g, HeightTap
                              "  return dh_dxy;\n"
                              "}}\n",
                              footprint_parameters(g), taps.smooth ? ", float lod" : "", height("first"),
-                             height("(first + step_x)"), height("(first + step_y)"), smooth));
+                             height("first + step_x"), height("first + step_y"), smooth));
   std::string lines = map.place_lines();
   if (!g.exact() && !map.trilinear() && map.moved()) lines += "  vec2 dx = dst_dx;\n  vec2 dy = dst_dy;\n";
   lines += fmt::format("  vec2 x = {};\n  vec2 y = {};\n", map.in_map("step_x"), map.in_map("step_y"));

@@ -21,6 +21,44 @@ int argument_count(Tokens tokens, std::size_t open, std::size_t close) {
   return count;
 }
 
+/// Where the first argument after `from` ends, before `close` at the latest.
+std::size_t first_argument_end(Tokens tokens, std::size_t from, std::size_t close) {
+  for (std::size_t i = from; i < close; ++i) {
+    if (tokens[i].text == "(" || tokens[i].text == "[") i = closing(tokens, i);
+    if (i < close && tokens[i].text == ",") return i;
+  }
+  return close;
+}
+
+/// Number of components that swizzles and the types of names say an expression has; 0 where they say nothing.
+///
+/// scope  what stands before the expression in its function, parameters included
+int components_of(Tokens expression, Tokens scope) {
+  const auto of_type = [](std::string_view type) {
+    return type == "vec2" || type == "float2" ? 2 : type == "vec3" || type == "float3" ? 3 : 0;
+  };
+  int components = 0;
+  for (std::size_t i = 0; i < expression.size(); ++i) {
+    const Token& t = expression[i];
+    if (t.kind != Kind::word) continue;
+    const bool is_member = i > 0 && expression[i - 1].text == ".";
+    const bool has_member = i + 1 < expression.size() && expression[i + 1].text == ".";
+    if (is_member && t.text.find_first_not_of("xyzrgb") == std::string_view::npos && t.text.size() > 1)
+      components = static_cast<int>(t.text.size());
+    if (i + 1 < expression.size() && expression[i + 1].text == "(") {
+      i = closing(expression, i + 1); // what a call gives is not seen here
+      continue;
+    }
+    if (is_member || has_member) continue;
+    for (std::size_t k = scope.size(); k-- > 2;)
+      if (scope[k].text == t.text && scope[k - 1].kind == Kind::space && of_type(scope[k - 2].text) > 0) {
+        components = of_type(scope[k - 2].text);
+        break;
+      }
+  }
+  return components;
+}
+
 std::string_view between(Tokens tokens, std::size_t from, std::size_t to) {
   if (from >= to) return {};
   const char* first = tokens[from].text.data();
@@ -75,7 +113,13 @@ Library::Library(std::string_view text, Language language) {
       if (mark == "(" && !initialised && d.name.empty()) {
         d.name = tokens[last_word].text;
         const std::size_t close = closing(tokens, end);
-        if (language != Language::wgsl) d.arguments = argument_count(tokens, end, close);
+        if (language != Language::wgsl) {
+          d.arguments = argument_count(tokens, end, close);
+          const std::string_view first = tokens[significant(tokens, end + 1)].text;
+          d.components = first == "vec2" || first == "float2"   ? 2
+                         : first == "vec3" || first == "float3" ? 3
+                                                                : 0;
+        }
         end = close;
       } else if (mark == "(" || mark == "{" || mark == "[") {
         end = closing(tokens, end);
@@ -94,22 +138,48 @@ Library::Library(std::string_view text, Language language) {
         tokens[end].text.find('\n') == std::string_view::npos)
       end += 2;
     d.text = between(tokens, i, std::min(end, tokens.size()));
-    if (comment < i) d.comment = summary(between(tokens, comment, i));
+    if (comment < i)
+      d.comment = summary(between(tokens, comment, i));
+    else if (!declarations_.empty() && declarations_.back().name == d.name)
+      d.comment = declarations_.back().comment; // an overload's, which stands above the first
     declarations_.push_back(d);
     comment = tokens.size();
     i = end;
   }
 }
 
+bool Library::is_overloaded(const Declaration& d) const {
+  return std::count_if(declarations_.begin(), declarations_.end(), [&](const Declaration& other) {
+           return other.name == d.name && other.arguments == d.arguments;
+         }) > 1;
+}
+
 std::vector<const Library::Declaration*> Library::named_in(std::string_view code) const {
   const std::vector<Token> tokens = tokens_of(code);
   std::vector<const Declaration*> result;
+  std::size_t scope = 0; // where the function that holds the token begins
+  int depth = 0;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].text == "{") ++depth;
+    if (tokens[i].text == "}" && --depth == 0) scope = i + 1;
     if (tokens[i].kind != Kind::word) continue;
-    const bool is_call = i + 1 < tokens.size() && tokens[i + 1].text == "(";
-    const int arguments = is_call ? argument_count(tokens, i + 1, closing(tokens, i + 1)) : -1;
-    for (const Declaration& d : declarations_)
-      if (d.name == tokens[i].text && (d.arguments < 0 || d.arguments == arguments)) result.push_back(&d);
+    // A declaration's own name is no call.
+    if (i >= 2 && tokens[i - 1].kind == Kind::space && tokens[i - 2].kind == Kind::word &&
+        tokens[i - 2].text != "return" && tokens[i - 2].text != "else")
+      continue;
+    int arguments = -1, components = 0;
+    if (i + 1 < tokens.size() && tokens[i + 1].text == "(") {
+      const std::size_t close = closing(tokens, i + 1);
+      arguments = argument_count(tokens, i + 1, close);
+      const Tokens all(tokens);
+      components = components_of(all.subspan(i + 2, first_argument_end(all, i + 2, close) - (i + 2)),
+                                 all.subspan(scope, i - scope));
+    }
+    for (const Declaration& d : declarations_) {
+      if (d.name != tokens[i].text) continue;
+      const bool other = d.components > 0 && components > 0 && d.components != components && is_overloaded(d);
+      if (d.arguments < 0 || (d.arguments == arguments && !other)) result.push_back(&d);
+    }
   }
   return result;
 }
@@ -124,8 +194,13 @@ std::string Library::used_by(std::string_view code) const {
     waiting.insert(waiting.end(), further.begin(), further.end());
   }
   std::string result;
-  for (const Declaration& d : declarations_)
-    if (used.contains(&d)) result += std::string(d.comment) + std::string(d.text) + "\n\n";
+  std::string_view comment;
+  for (const Declaration& d : declarations_) {
+    if (!used.contains(&d)) continue;
+    if (d.comment.data() != comment.data()) result += d.comment;
+    comment = d.comment;
+    result += std::string(d.text) + "\n\n";
+  }
   return result;
 }
 

@@ -51,8 +51,14 @@ std::size_t index_of(Shader& shader, TextureBinding binding, const std::string& 
 std::size_t middle_comma(const std::string& arguments) {
   int depth = 0;
   std::size_t i = 0;
-  for (; depth > 0 || arguments[i] != ','; ++i) depth += arguments[i] == '(' ? 1 : arguments[i] == ')' ? -1 : 0;
+  for (; depth > 0 || arguments[i] != ','; ++i)
+    depth += arguments[i] == '(' ? 1 : arguments[i] == ')' ? -1 : 0;
   return i;
+}
+
+FileFacts facts_of(const Generator& generator, const stack::FileName& file) {
+  const auto& known = generator.options().facts_of;
+  return known ? known(file) : FileFacts{};
 }
 
 /// The vec2 of a slope as its channels hold it, x along s and y along t.
@@ -84,6 +90,9 @@ MapUse::MapUse(Generator& generator, const stack::Tiled& tiled, TextureBinding b
   const auto named = [&](const char* parameter) {
     return what == "map" ? parameter : what + "_" + parameter;
   };
+  const bool is_normal_map = binding.kind == MapKind::slopes || binding.kind == MapKind::normals;
+  if (!generator.exact() && is_normal_map && binding.channels == stack::Channels::automatic)
+    binding.channels = facts_of(generator, binding.files[0]).channels;
   if (binding.kind == MapKind::derivatives && !generator.exact())
     range_ = generator.parameter(named("range"), "slope of the largest code", binding.code.range);
   binding.name = name_;
@@ -164,8 +173,9 @@ std::vector<MapUse::Place> MapUse::places() const {
   for (int k = 0; k < 3; ++k) {
     const std::string rotation = fmt::format("tiles.rotation[{}]", k);
     const std::string turned =
-        exact ? fmt::format("stack_footprint_in_tile(footprint, sides, {})", rotation)
-              : fmt::format("stack_in_tile({1}, sides, {0}), stack_in_tile({2}, sides, {0})", rotation, dx, dy);
+        exact
+            ? fmt::format("stack_footprint_in_tile(footprint, sides, {})", rotation)
+            : fmt::format("stack_in_tile({1}, sides, {0}), stack_in_tile({2}, sides, {0})", rotation, dx, dy);
     places.push_back({fmt::format("tiles.st[{}] / sides", k), turned, rotation});
   }
   return places;
@@ -204,9 +214,8 @@ std::string MapUse::slope(const Place& place) const {
   if (generator_.exact())
     return fmt::format("stack_map_slope({}, {}, {}, {}, {})", exact_map(), place.st, place.footprint,
                        exact_wraps(), number_of(b.filter));
-  const auto facts_of = generator_.options().facts_of;
-  const FileFacts facts = facts_of ? facts_of(b.files[0]) : FileFacts{};
   if (b.kind == MapKind::derivatives) {
+    const FileFacts facts = facts_of(generator_, b.files[0]);
     if (facts.codes == Codes::floats) return with_green(b, fmt::format("({} * {}.xy)", range_, texel(place)));
     if (b.code.neutral == stack::NeutralCode::between)
       return with_green(b, fmt::format("({} * (2.0 * {}.xy - 1.0))", range_, texel(place)));
@@ -216,8 +225,7 @@ std::string MapUse::slope(const Place& place) const {
     return with_green(
         b, fmt::format("({} * stack_whole_code({}.xy, {}, {}))", range_, texel(place), most, flat));
   }
-  const stack::Channels channels = b.channels == stack::Channels::automatic ? facts.channels : b.channels;
-  const bool two = channels == stack::Channels::xy;
+  const bool two = b.channels == stack::Channels::xy;
   return with_green(b, fmt::format("surfgrad_derivative_from_normal{}(2.0 * {}.{} - 1.0)",
                                    two ? "__vec2" : "", texel(place), two ? "xy" : "xyz"));
 }
@@ -276,13 +284,16 @@ std::string MapUse::slope_function() const {
   const std::vector<Place> where = places();
   std::string rest;
   if (where.size() == 1) {
-    rest = fmt::format("  return {};\n", along_coordinate(slope(where[0])));
+    const bool as_it_is = along_coordinate("slope") == "slope";
+    rest = as_it_is ? fmt::format("  return {};\n", slope(where[0]))
+                    : fmt::format("  vec2 slope = {};\n  return {};\n", slope(where[0]),
+                                  along_coordinate("slope"));
   } else {
     rest = "  vec2 slopes[3];\n";
     for (std::size_t k = 0; k < 3; ++k) rest += fmt::format("  slopes[{}] = {};\n", k, slope(where[k]));
     // The steeper tiles prevail.
-    rest += fmt::format("  vec2 slope = surfgrad_hex_derivative(tiles, surfgrad_hex_weights(tiles, slopes, "
-                        "7.0, 1.5), slopes);\n"
+    rest += fmt::format("  vec3 weights = surfgrad_hex_weights(tiles, slopes, 7.0, 1.5);\n"
+                        "  vec2 slope = surfgrad_hex_derivative(tiles, weights, slopes);\n"
                         "  return {};\n",
                         along_coordinate("slope"));
   }

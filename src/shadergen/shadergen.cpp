@@ -5,12 +5,13 @@
 #include "shadergen/generator.hpp"
 #include "shadergen/layers/layers.hpp"
 #include "shadergen/library.hpp"
+#include "shadergen/line_breaks.hpp"
 #include "shadergen/parameters.hpp"
 #include "shadergen/spelling.hpp"
 #include "stack/uses.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <stdexcept>
 
 namespace surfgrad::shadergen {
 namespace {
@@ -96,6 +97,15 @@ std::string key_of(const stack::Layer& layer) {
       layer);
 }
 
+/// The names of a layer's files, for a comment.
+std::string maps_of(const stack::Layer& layer) {
+  stack::Layer copy = layer; // files_of gives what can be changed
+  std::string names;
+  for (const stack::FileName* file : stack::files_of(copy))
+    names += (names.empty() ? "" : ", ") + file->path.filename().string();
+  return names;
+}
+
 /// What a member of the surface is, for whoever fills it.
 std::string_view remark_on(Role role) {
   switch (role) {
@@ -117,11 +127,11 @@ std::string_view remark_on(Role role) {
   case Role::dst_dy:
     return "its change per pixel";
   case Role::tangent:
-    return "vertex tangent, interpolated, not normalised; w the sign of the bitangent";
+    return "vertex tangent, interpolated, not normalised; w its sign";
   case Role::object_position:
     return "in the object's space, before any displacement";
   case Role::world_position:
-    return "the same in world space";
+    return "world space, before any displacement";
   case Role::world_from_object:
     return "linear part of the object's transform";
   case Role::object_from_world:
@@ -141,7 +151,7 @@ std::string_view remark_on(Role role) {
   case Role::dn_dy:
     return "and along y";
   case Role::relative_from_screen:
-    return "takes (x, y, depth, 1) in pixels to position, before the division by w; zero: over the surface";
+    return "takes (x, y, depth, 1) in pixels to position; zero if no screen";
   }
   return "";
 }
@@ -210,7 +220,8 @@ std::string fragment_function(Generator& g, const std::string& frame, const Opti
   if (options.diagnostics)
     text += "  bool degenerate = s.normal_is_absent || surfgrad_max_abs(frame.normal) == 0.0;\n";
   if (shader.has_sunlight) text += "  float sunlight = 1.0;\n";
-  text += g.body();
+  // A layer's comment follows an empty line, but at the beginning.
+  text += text.ends_with("{\n") && !g.body().empty() ? g.body().substr(1) : g.body();
   text += fmt::format("\n  StackResult result;\n  result.normal = {};\n", normal);
   for (const std::string& name : moved_members(shader)) text += fmt::format("  result.{0} = s.{0};\n", name);
   if (shader.has_sunlight) text += "  result.sunlight = sunlight;\n";
@@ -231,7 +242,7 @@ Common written(const std::vector<stack::Layer>& layers, const Options& options, 
   static_cast<void>(g.surface(Role::normal));
   if (options.diagnostics) static_cast<void>(g.surface(Role::normal_is_absent));
   for (const stack::Layer& layer : layers) {
-    g.begin_layer(key_of(layer), kind_of(layer));
+    g.begin_layer(key_of(layer), kind_of(layer), maps_of(layer));
     std::visit([&](const auto& kind) { write(kind, g); }, layer);
   }
   const std::string frame = g.tangents_alone() ? "" : first_frame(g);
@@ -245,30 +256,33 @@ Common written(const std::vector<stack::Layer>& layers, const Options& options, 
   return common;
 }
 
-void check_name(const std::string& name) {
-  const bool good =
-      !name.empty() && name[0] >= 'a' && name[0] <= 'z' &&
-      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
-  if (!good) throw std::invalid_argument("a shader's name is a lower-case letter, then letters and digits");
-}
-
-std::string comment_block(const Options& options, const Shader& shader) {
+std::string comment_block(const Options& options, const Shader& shader, bool differentiates) {
   const std::string file = options.document.empty() ? "a stack" : options.document.filename().string();
-  std::string text =
-      fmt::format("// The bump layers of {}, written by surfgrad.\n//\n"
-                  "//   StackResult r = stack_normal(s); // StackSurface s: what the layers read\n",
-                  file);
-  if (shader.language == Language::glsl || shader.language == Language::hlsl)
-    text += "//\n// In fragment shaders define SURFGRAD_FRAGMENT before this: stack_with_derivatives(s) then "
-            "fills in the\n"
-            "// derivatives.\n";
+  std::string text = fmt::format("// The bump layers of {0}, written by surfgrad.\n"
+                                 "//\n"
+                                 "//   {2}Surface s; // what the layers read: fill it in\n"
+                                 "//   {2}Result r = {1}_normal(s);\n",
+                                 file, shader.name, shader.type_name);
+  if (differentiates && (shader.language == Language::glsl || shader.language == Language::hlsl))
+    text += fmt::format("//\n// In fragment shaders define SURFGRAD_FRAGMENT before this: "
+                        "{}_with_derivatives(s) then gives s its\n"
+                        "// derivatives.\n",
+                        shader.name);
   return text + "\n";
 }
 
 } // namespace
 
+bool is_name(std::string_view text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return !text.empty() && text != "surfgrad" && text[0] >= 'a' && text[0] <= 'z' &&
+         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
+}
+
 Shader generate(const std::vector<stack::Layer>& layers, const Options& options) {
-  check_name(options.name);
+  if (!is_name(options.name))
+    throw std::invalid_argument("a shader's name is a lower-case letter, then letters and digits");
   Shader shader;
   const auto fresh = [&] {
     Shader s;
@@ -315,8 +329,8 @@ Shader generate(const std::vector<stack::Layer>& layers, const Options& options)
   } else {
     library = fmt::format("#include \"{}\"\n\n", library_name(options.language));
   }
-  shader.source = renamed(comment_block(options, shader), shader.name, shader.type_name) + library +
-                  renamed(code, shader.name, shader.type_name);
+  shader.source = comment_block(options, shader, !common.fragment_only.empty()) + library +
+                  with_line_breaks(renamed(code, shader.name, shader.type_name));
   for (TextureBinding& t : shader.textures) {
     t.name = renamed(t.name, shader.name, shader.type_name);
     t.sampler = renamed(t.sampler, shader.name, shader.type_name);

@@ -19,6 +19,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace surfgrad::shadergen {
@@ -93,7 +94,7 @@ struct TextureBinding {
   stack::Wrap wrap_s = stack::Wrap::repeat, wrap_t = stack::Wrap::repeat;
   stack::Filter filter = stack::Filter::trilinear;
   int anisotropy = 1;                                    ///< most probes
-  stack::Channels channels = stack::Channels::automatic; ///< slopes, normals: as the layer says
+  stack::Channels channels = stack::Channels::automatic; ///< slopes, normals; hardware: never automatic
   stack::Green green = stack::Green::up;                 ///< slopes, normals, derivatives, directions
   stack::DerivativeCode code{};                          ///< derivatives
   stack::MaskChannel channel = stack::MaskChannel::r;    ///< heights, height_slopes, weights, relief
@@ -180,9 +181,9 @@ struct Shader {
 ///   binding 3  NAME_maps: one ExactMap a texture, two for a relief (from above, then from below), in the
 ///              order of Shader::textures
 ///
-/// The caller declares nothing of these, writes his own main and uses set 1 for what that reads and writes.
+/// The caller declares nothing of these and writes his own main, whose bindings begin at first_free.
 struct ExactLayout {
-  static constexpr int parameters = 0, decals = 1, words = 2, maps = 3;
+  static constexpr int parameters = 0, decals = 1, words = 2, maps = 3, first_free = 4;
 };
 
 /// A map in the buffers of `exact` access, words as image::Map has them; positions count words of NAME_words.
@@ -197,6 +198,9 @@ struct ExactMap {
   std::uint32_t row_words = 0;   ///< relief: HeightField::row_words
 };
 static_assert(sizeof(ExactMap) == 32);
+
+/// Whether identifiers may begin so (Options::name): not as the library's do.
+[[nodiscard]] bool is_name(std::string_view text);
 
 /// The code of the layers of one material.
 ///

@@ -80,9 +80,11 @@ class Speller {
       const bool is_call = i + 1 < to && tokens_[i + 1].text == "(";
       if (is_call && is_special(t.text)) {
         const std::size_t end = closing(tokens_, i + 1);
-        out += special(t.text, arguments(i + 2, end));
+        const std::string made = special(t.text, arguments(i + 2, end));
+        const bool operates = t.text == "product" || (t.text == "select" && language_ != Language::wgsl);
+        out += operates && !stands_alone(out, end + 1, to) ? fmt::format("({})", made) : made;
         i = end;
-      } else if (t.text == "stack" && language_ == Language::godot && tokens_[i + 1].text == ".") {
+      } else if (t.text == "stack_parameters" && language_ == Language::godot && tokens_[i + 1].text == ".") {
         out += "stack_"; // uniforms of Godot are members of nothing
         ++i;
       } else {
@@ -109,6 +111,17 @@ class Speller {
     return result;
   }
 
+  /// Whether an expression between what is written and the token at `i` needs no brackets: it is a whole
+  /// argument or the right side of a statement.
+  bool stands_alone(const std::string& before, std::size_t i, std::size_t to) const {
+    const std::size_t last = before.find_last_not_of(" \n");
+    const bool begins = last == std::string::npos || before[last] == '(' || before[last] == ',' ||
+                        (before[last] == '=' && last > 0 && before[last - 1] == ' ') ||
+                        before.ends_with("return ");
+    i = significant(tokens_, i);
+    return begins && (i >= to || tokens_[i].text == ")" || tokens_[i].text == "," || tokens_[i].text == ";");
+  }
+
   static bool is_special(std::string_view name) {
     static const std::set<std::string_view> names{"select",     "product",          "matrix_of_rows",
                                                   "sample_lod", "sample_cube_grad", "sample_grad",
@@ -119,10 +132,10 @@ class Speller {
   std::string special(std::string_view name, const std::vector<std::string>& a) const {
     if (name == "select")
       return language_ == Language::wgsl ? fmt::format("select({}, {}, {})", a[2], a[1], a[0])
-                                         : fmt::format("({} ? {} : {})", a[0], a[1], a[2]);
+                                         : fmt::format("{} ? {} : {}", a[0], a[1], a[2]);
     if (name == "product")
       return language_ == Language::hlsl ? fmt::format("mul({}, {})", a[0], a[1])
-                                         : fmt::format("({} * {})", a[0], a[1]);
+                                         : fmt::format("{} * {}", factor(a[0]), factor(a[1]));
     if (name == "matrix_of_rows") {
       const std::string made = fmt::format("{}({}, {}, {}, {})", word("mat4"), a[0], a[1], a[2], a[3]);
       return language_ == Language::hlsl ? made : fmt::format("transpose({})", made); // columns elsewhere
@@ -137,6 +150,16 @@ class Speller {
       break;
     }
     return sampled_in_glsl(name, a);
+  }
+
+  /// An expression that can be multiplied: in brackets where it holds an operator outside of any.
+  static std::string factor(const std::string& expression) {
+    int depth = 0;
+    for (const char c : expression) {
+      depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+      if (c == ' ' && depth == 0) return fmt::format("({})", expression);
+    }
+    return expression;
   }
 
   static std::string sampled_in_glsl(std::string_view name, const std::vector<std::string>& a) {
@@ -317,7 +340,7 @@ std::string renamed(std::string_view code, std::string_view name, std::string_vi
     const std::string_view t = tokens[i].text;
     if (tokens[i].kind != Kind::word) {
       out += t;
-    } else if (t == common || t.starts_with("stack_")) {
+    } else if (t.starts_with("stack_")) {
       out += std::string(name) + std::string(t.substr(common.size()));
     } else if (t.starts_with(common_type)) {
       out += std::string(type_name) + std::string(t.substr(common_type.size()));

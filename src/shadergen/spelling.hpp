@@ -32,8 +32,7 @@ using SamplerOf = std::function<std::string(std::string_view texture)>;
 /// The spelling of a type.
 [[nodiscard]] std::string_view type_in(Language language, std::string_view type);
 
-/// The code with every identifier that begins with `stack_` or `Stack`, and the word `stack` where a member
-/// follows, given another name.
+/// The code with every identifier that begins with `stack_` or `Stack` given another beginning.
 [[nodiscard]] std::string renamed(std::string_view code, std::string_view name, std::string_view type_name);
 
 } // namespace surfgrad::shadergen

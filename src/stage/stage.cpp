@@ -53,7 +53,7 @@ void warn_about_tangents(const scene::Scene& scene, const std::vector<raster::Uv
 } // namespace
 
 Stage::Stage(const scene::Scene& scene, const View& view, const std::vector<raster::UvSlot>& needed,
-             const Report& report)
+             const Report& report, const Backend* backend)
     : scene_(scene), slots_(needed) {
   require_uv_sets(scene, needed);
   for (const scene::Material& material : scene.materials) engine::collect_uv_slots(material.layers, slots_);
@@ -62,6 +62,7 @@ Stage::Stage(const scene::Scene& scene, const View& view, const std::vector<rast
       scene.source);
   for (const scene::Material& material : scene.materials)
     programs_.push_back(engine::compile(material.layers, slots_, maps));
+  if (backend != nullptr) composer_ = backend->prepare(scene, slots_, maps);
   for (const auto& odd : maps.inward_texels())
     report.warn(fmt::format(
         "{}: {} of {} texels point into the surface (z <= 0); they are read as if z were positive",
@@ -106,6 +107,13 @@ engine::TileWork Stage::work_of(const raster::TriangleId& id) const {
     work.wanted.tangents[s] = surface.slots[s].present && !surface.slots[s].tangents.empty();
   }
   return work;
+}
+
+void Stage::compose(const engine::TileWork& work, const raster::TriangleId& id) const {
+  if (composer_)
+    composer_->compose(work, material_of(id));
+  else
+    engine::compose_tile(work);
 }
 
 } // namespace surfgrad::stage

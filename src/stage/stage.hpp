@@ -4,8 +4,10 @@
 #include "engine/tiles.hpp"
 #include "raster/tile_grid.hpp"
 #include "scene/scene.hpp"
+#include "stage/backend.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,12 +25,13 @@ struct View {
 /// bake have in common.
 class Stage {
  public:
-  /// needed  texture coordinates that the job reads besides those of the layers
+  /// needed   texture coordinates that the job reads besides those of the layers
+  /// backend  composes in the engine's stead; null: the engine
   /// Warns about normal maps with texels that point into the surface. The scene must outlive the
   /// stage. Throws InputError where a mesh lacks a needed UV set or the scene needs more of them than a
   /// fragment carries.
   Stage(const scene::Scene& scene, const View& view, const std::vector<raster::UvSlot>& needed,
-        const Report& report);
+        const Report& report, const Backend* backend = nullptr);
 
   /// One a scene object, in the same order.
   [[nodiscard]] const std::vector<raster::Surface>& surfaces() const { return surfaces_; }
@@ -40,6 +43,8 @@ class Stage {
   [[nodiscard]] bool culled(const raster::TriangleId& id, bool front_facing) const;
   /// How pixels of this triangle's surface and material are composed: all but the pixels.
   [[nodiscard]] engine::TileWork work_of(const raster::TriangleId& id) const;
+  /// Composes pixels of this triangle's surface and material.
+  void compose(const engine::TileWork& work, const raster::TriangleId& id) const;
 
  private:
   const scene::Scene& scene_;
@@ -47,6 +52,7 @@ class Stage {
   std::vector<engine::Program> programs_; // one a material
   std::vector<raster::Surface> surfaces_;
   std::vector<engine::Placement> placements_; // one a surface
+  std::unique_ptr<Composer> composer_;        // null: the engine
 };
 
 } // namespace surfgrad::stage

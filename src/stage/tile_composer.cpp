@@ -189,7 +189,7 @@ const ComposedTile& TileComposer::compose(int column, int row) {
     work.x = s.x.data() + begin;
     work.y = s.y.data() + begin;
     work.results = results_from(s.composed.results, begin);
-    engine::compose_tile(work);
+    stage_.compose(work, first);
     s.runs.push_back({first.surface, begin, end});
   }
   s.composed.pixel = s.pixel.data();

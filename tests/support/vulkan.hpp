@@ -1,24 +1,16 @@
 #pragma once
 
-/// Tests on a Vulkan device: Mesa's software driver, exact and the same on every machine, unless
-/// VK_ICD_FILENAMES names another. Each fails on anything that the validation layer says.
+/// Tests on a Vulkan device (support/software_driver.hpp). Each fails on anything that the validation layer
+/// says.
 
 #include "gpu/device.hpp"
+#include "support/software_driver.hpp"
 
-#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <memory>
 
 namespace surfgrad::test {
-
-/// Before the first call of Vulkan.
-inline void choose_software_driver() {
-  setenv("VK_ICD_FILENAMES", SURFGRAD_SOFTWARE_VULKAN, 0);
-  // By default it filters textures with 8-bit weights and chooses levels for groups of pixels.
-  setenv("GALLIVM_PERF", "no_brilinear,no_rho_approx,no_quad_lod,no_aos_sampling", 0);
-  setenv("XDG_RUNTIME_DIR", "/tmp", 0); // else Mesa complains, though nothing is put there
-}
 
 class VulkanTest : public ::testing::Test {
  protected:

@@ -28,6 +28,13 @@ bool has(const stack::DecalLayer& layer, stack::DecalBlend blend) {
                      [&](const stack::DecalInstance& i) { return blend_of(layer, i) == blend; });
 }
 
+/// Where a decal acts: nowhere on an object whose transform has no inverse. Only the engine's own device
+/// looks for that.
+const char* inside_of(const stack::DecalLayer& layer, const Generator& g) {
+  const bool may_lack_space = g.options().diagnostics && layer.space == stack::Space::object;
+  return may_lack_space ? "place.inside && !stack_is_zero(s.object_from_world)" : "place.inside";
+}
+
 /// What a box, cone or wedge adds where it is, as lines inside the loop over decals: `gradient`, `falloff`.
 std::string image_lines(const stack::DecalLayer& layer, Generator& g, const std::string& fade) {
   const std::string function = bump_function(g, layer.map, layer.map.content, layer.files[0], "map");
@@ -46,19 +53,19 @@ std::string image_lines(const stack::DecalLayer& layer, Generator& g, const std:
   // Slopes lie along the image's axes, heights go by its coordinates.
   const char* axis = layer.map.content == stack::Content::height ? "grad" : "axis";
   return fmt::format("    SurfgradDecalProjection place = {};\n"
-                     "    if (place.inside) {{\n"
+                     "    if ({}) {{\n"
                      "      SurfgradTextureDerivatives d = surfgrad_projected_derivatives(place.grad_s, "
                      "place.grad_t, dp_dx, dp_dy);\n"
                      "      vec2 derivative = {}(place.texture_coordinate, d.dst_dx, d.dst_dy);\n"
                      "      vec3 gradient = surfgrad_decal_gradient(derivative, place.{}_s, place.{}_t);\n",
-                     shape, function, axis, axis);
+                     shape, inside_of(layer, g), function, axis, axis);
 }
 
 /// The same of a sphere or capsule.
 std::string cube_lines(const stack::DecalLayer& layer, Generator& g, const std::string& fade) {
   TextureBinding binding = binding_of(MapKind::cube, stack::Tiled{}, layer.files[0]);
   binding.files = layer.files;
-  stack::Tiled whole;
+  const stack::Tiled whole;
   const MapUse map(g, whole, std::move(binding), "map");
   const bool capsule = layer.shape == stack::DecalShape::capsule;
   const std::string shape =
@@ -71,14 +78,14 @@ std::string cube_lines(const stack::DecalLayer& layer, Generator& g, const std::
                 : fmt::format("(2.0 * sample_cube_grad({}, q, q_dx, q_dy).xyz - 1.0)", map.binding().name);
   return fmt::format(
       "    SurfgradDecalDirection place = {};\n"
-      "    if (place.inside) {{\n"
+      "    if ({}) {{\n"
       "      vec3 q = stack_in_decal(decal.frame, place.unchanging, at - decal.frame.origin{});\n"
       "      vec3 q_dx = stack_in_decal(decal.frame, place.unchanging, dp_dx);\n"
       "      vec3 q_dy = stack_in_decal(decal.frame, place.unchanging, dp_dy);\n"
       "      vec3 n = {};\n"
       "      vec3 v = n.x * decal.frame.axis_x + n.y * decal.frame.axis_y + n.z * decal.frame.axis_z;\n"
       "      vec3 gradient = surfgrad_decal_gradient_from_normal(place, v);\n",
-      shape,
+      shape, inside_of(layer, g),
       capsule ? " - clamp(dot(at - decal.frame.origin, decal.frame.axis_x), -decal.half_length, "
                 "decal.half_length) * decal.frame.axis_x"
               : "",

@@ -10,6 +10,7 @@
 #include "support/worst.hpp"
 
 #include <cstring>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -168,6 +169,8 @@ struct FormatCase {
   int components;
   VkFormat expected; ///< where the device samples it, as the software driver does
 };
+/// How a failing test names its case.
+void PrintTo(const FormatCase& row, std::ostream* out) { *out << row.name; }
 class Formats : public VulkanTest, public ::testing::WithParamInterface<FormatCase> {};
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,122 @@
+#include "device.hpp"
+
+#include "console.hpp"
+#include "diagnostic/error.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iostream>
+
+#if SURFGRAD_GPU
+#include "gpu/backend.hpp"
+#endif
+
+namespace surfgrad::cli {
+namespace {
+
+constexpr const char* processor = "cpu";
+constexpr std::string_view vulkan = "vulkan";
+
+/// The number behind "vulkan:", 0 for "vulkan" alone; -1 for anything else.
+int number_of(std::string_view device) {
+  if (device == vulkan) return 0;
+  if (!device.starts_with("vulkan:")) return -1;
+  device.remove_prefix(vulkan.size() + 1);
+  int number = 0;
+  const auto [end, error] = std::from_chars(device.data(), device.data() + device.size(), number);
+  return error == std::errc() && end == device.data() + device.size() && number >= 0 ? number : -1;
+}
+
+CLI::Validator known_device() {
+  return CLI::Validator(
+      [](std::string& text) {
+        if (text == processor || number_of(text) >= 0) return std::string();
+        return fmt::format("\"{}\" is not a device; use cpu, vulkan or, of several, vulkan:N (surfgrad "
+                           "--list-devices)",
+                           text);
+      },
+      "");
+}
+
+} // namespace
+
+void add_device_options(CLI::App& verb, DeviceOptions& options) {
+  verb.add_option("--device", options.device,
+                  "what composes the normals: cpu (default), vulkan, or vulkan:N of surfgrad --list-devices")
+      ->check(known_device())
+      ->type_name("NAME")
+      ->option_text("NAME");
+  verb.add_option("--max-tile", options.max_tile,
+                  "most pixels along a side of what a device is given at a time")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N")
+      ->option_text("N");
+}
+
+#if SURFGRAD_GPU
+
+struct ChosenDevice::Open {
+  gpu::Device device;
+  gpu::Backend backend;
+
+  explicit Open(const DeviceOptions& options)
+      : device({.number = number_of(options.device)}),
+        backend(device, options.max_tile > 0 ? options.max_tile : gpu::Backend::usual_tile_side) {}
+};
+
+ChosenDevice::ChosenDevice(const DeviceOptions& options) {
+  if (options.device != processor) open_ = std::make_unique<Open>(options);
+}
+const stage::Backend* ChosenDevice::backend() const { return open_ ? &open_->backend : nullptr; }
+std::string ChosenDevice::name() const { return open_ ? open_->device.info().name : processor; }
+
+void add_device_list(CLI::App& program) {
+  program
+      .add_flag_callback(
+          "--list-devices",
+          [] {
+            std::cout << "cpu\n";
+            try {
+              int number = 0;
+              for (const gpu::DeviceInfo& each : gpu::list_devices())
+                std::cout << fmt::format(
+                    "vulkan:{}  {} ({}, {}){}\n", number++, each.name, each.kind, each.driver,
+                    each.lacks.empty() ? "" : ": cannot be used, it lacks " + each.lacks);
+            } catch (const MachineError& error) {
+              complain(error.what());
+            }
+            throw CLI::Success();
+          },
+          "print what --device takes, and end")
+      ->trigger_on_parse();
+}
+
+#else
+
+struct ChosenDevice::Open {};
+
+ChosenDevice::ChosenDevice(const DeviceOptions& options) {
+  if (options.device != processor)
+    throw MachineError("cannot use a Vulkan device: this program was built without (SURFGRAD_GPU=OFF)");
+}
+const stage::Backend* ChosenDevice::backend() const { return nullptr; }
+std::string ChosenDevice::name() const { return processor; }
+
+void add_device_list(CLI::App& program) {
+  program
+      .add_flag_callback(
+          "--list-devices",
+          [] {
+            std::cout << "cpu\n";
+            throw CLI::Success();
+          },
+          "print what --device takes, and end")
+      ->trigger_on_parse();
+}
+
+#endif
+
+ChosenDevice::~ChosenDevice() = default;
+
+} // namespace surfgrad::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "gpu/pipeline.hpp"
+#include "stage/backend.hpp"
+
+namespace surfgrad::gpu {
+
+/// Composes what render and bake ask for on a Vulkan device: fragments are interpolated by the processor,
+/// their layers run as the shaders that shadergen writes, with the engine's own maps and filters.
+class Backend : public stage::Backend {
+ public:
+  /// Most pixels along a side of the tiles that a device is given: enough to keep it busy, few enough that
+  /// other programs get their turn.
+  static constexpr int usual_tile_side = 128;
+
+  /// most_tile_side  larger tiles are not asked for
+  explicit Backend(const Device& device, int most_tile_side = usual_tile_side);
+
+  [[nodiscard]] std::unique_ptr<stage::Composer> prepare(const scene::Scene& scene,
+                                                         const std::vector<raster::UvSlot>& slots,
+                                                         engine::MapLibrary& maps) const override;
+  [[nodiscard]] int tile_side() const override { return tile_side_; }
+
+ private:
+  const Device& device_;
+  int tile_side_;
+  mutable PipelineCache cache_{};
+};
+
+} // namespace surfgrad::gpu

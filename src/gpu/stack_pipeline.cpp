@@ -1,0 +1,280 @@
+#include "gpu/stack_pipeline.hpp"
+
+#include "diagnostic/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <span>
+
+namespace surfgrad::gpu {
+namespace {
+
+using shadergen::SurfaceMember;
+using Role = SurfaceMember::Role;
+
+constexpr std::uint32_t lanes = 64; // of a workgroup
+constexpr std::uint32_t fragments_binding = 0;
+constexpr std::uint32_t results_binding = 1;
+constexpr std::uint32_t object_binding = 2;
+
+Attribute attribute_of(Role role) {
+  switch (role) {
+  case Role::position:
+    return Attribute::position;
+  case Role::dp_dx:
+    return Attribute::dp_dx;
+  case Role::dp_dy:
+    return Attribute::dp_dy;
+  case Role::dn_dx:
+    return Attribute::dn_dx;
+  case Role::dn_dy:
+    return Attribute::dn_dy;
+  case Role::front_facing:
+    return Attribute::front_facing;
+  case Role::normal_is_absent:
+    return Attribute::normal_is_absent;
+  case Role::st:
+    return Attribute::st;
+  case Role::dst_dx:
+    return Attribute::dst_dx;
+  case Role::dst_dy:
+    return Attribute::dst_dy;
+  case Role::tangent:
+    return Attribute::tangent;
+  case Role::object_position:
+    return Attribute::object_position;
+  case Role::world_position:
+    return Attribute::world_position;
+  case Role::to_viewer:
+    return Attribute::to_viewer;
+  case Role::raster:
+    return Attribute::raster;
+  default:
+    break;
+  }
+  return Attribute::normal;
+}
+
+std::size_t floats_in(const std::string& type) {
+  if (type == "vec2") return 2;
+  if (type == "vec3") return 3;
+  if (type == "vec4") return 4;
+  if (type == "mat3") return 9;
+  if (type == "mat4") return 16;
+  return 1;
+}
+
+/// A member's value out of `function`(k), k from `first` on.
+std::string reading(const std::string& type, const char* function, std::size_t first) {
+  const auto one = [&](std::size_t k) { return fmt::format("{}({}u)", function, first + k); };
+  if (type == "bool") return one(0) + " != 0.0";
+  std::string list;
+  for (std::size_t k = 0; k < floats_in(type); ++k) list += (k == 0 ? "" : ", ") + one(k);
+  return type == "float" ? list : type + "(" + list + ")";
+}
+
+/// The shader around the generated function: a fragment an invocation.
+std::string text_of(const shadergen::Shader& shader) {
+  std::string fills;
+  std::size_t fragment = 0;
+  std::size_t object = 0;
+  for (const SurfaceMember& m : shader.surface) {
+    std::size_t& first = m.of_object ? object : fragment;
+    fills += fmt::format("  s.{} = {};\n", m.name,
+                         reading(m.type, m.of_object ? "of_object" : "of_fragment", first));
+    first += floats_in(m.type);
+  }
+  const std::string sunlight = shader.has_sunlight ? "r.sunlight" : "1.0";
+  return "#version 450\n" + shader.source +
+         fmt::format(R"(
+layout(local_size_x = {lanes}) in;
+layout(std430, set = 1, binding = 0) readonly buffer FragmentBlock {{ float fragment_values[]; }};
+layout(std430, set = 1, binding = 1) writeonly buffer ResultBlock {{ float results[]; }};
+layout(std430, set = 1, binding = 2) readonly buffer ObjectBlock {{ float object_values[]; }};
+layout(push_constant) uniform Batch {{ uint count; uint stride; }} batch;
+
+float of_fragment(uint k) {{ return fragment_values[k * batch.stride + gl_GlobalInvocationID.x]; }}
+float of_object(uint k) {{ return object_values[k]; }}
+void put(uint k, float value) {{ results[k * batch.stride + gl_GlobalInvocationID.x] = value; }}
+
+void main() {{
+  if (gl_GlobalInvocationID.x >= batch.count) return;
+  {type}Surface s;
+{fills}  {type}Result r = {name}_normal(s);
+  put(0u, r.normal.x);
+  put(1u, r.normal.y);
+  put(2u, r.normal.z);
+  put(3u, r.base_normal.x);
+  put(4u, r.base_normal.y);
+  put(5u, r.base_normal.z);
+  put(6u, r.degenerate ? 1.0 : 0.0);
+  put(7u, {sunlight});
+}}
+)",
+                     fmt::arg("lanes", lanes), fmt::arg("type", shader.type_name), fmt::arg("fills", fills),
+                     fmt::arg("name", shader.name), fmt::arg("sunlight", sunlight));
+}
+
+/// All maps' words, one after the other, and what says where.
+struct MapWords {
+  std::vector<std::uint32_t> words{};
+  std::vector<shadergen::ExactMap> maps{};
+};
+
+std::uint32_t append(std::vector<std::uint32_t>& words, std::span<const std::uint32_t> some) {
+  const auto at = static_cast<std::uint32_t>(words.size());
+  words.insert(words.end(), some.begin(), some.end());
+  return at;
+}
+
+MapWords words_of(const std::vector<StackMap>& maps) {
+  MapWords result;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    // Layers share maps.
+    const auto same = std::find_if(maps.begin(), maps.begin() + static_cast<std::ptrdiff_t>(i),
+                                   [&](const StackMap& m) { return m.map == maps[i].map; });
+    if (same != maps.begin() + static_cast<std::ptrdiff_t>(i)) {
+      result.maps.push_back(result.maps[static_cast<std::size_t>(same - maps.begin())]);
+      continue;
+    }
+    const image::Map& map = *maps[i].map;
+    shadergen::ExactMap exact;
+    exact.texels = append(result.words, map.words);
+    exact.levels = append(result.words, map.level_table);
+    exact.level_count = static_cast<std::uint32_t>(map.level_count);
+    exact.format = static_cast<std::uint32_t>(map.format) +
+                   256u * static_cast<std::uint32_t>(map.components) + (map.encoded ? 65536u : 0u);
+    exact.scale = static_cast<float>(map.scale);
+    if (const image::HeightField* field = maps[i].field; field != nullptr) {
+      exact.nodes = append(result.words, field->maxima);
+      exact.rows = append(result.words, field->node_table);
+      exact.row_words = static_cast<std::uint32_t>(field->row_words);
+    }
+    result.maps.push_back(exact);
+  }
+  return result;
+}
+
+void append(std::vector<float>& values, vec3<double> v) {
+  for (const double each : {v.x, v.y, v.z}) values.push_back(static_cast<float>(each));
+}
+void append(std::vector<float>& values, vec4<double> v) {
+  for (const double each : {v.x, v.y, v.z, v.w}) values.push_back(static_cast<float>(each));
+}
+/// Columns one after the other, as GLSL's constructors take them.
+void append(std::vector<float>& values, const mat3<double>& m) {
+  const mat3<double> columns = transpose(m);
+  append(values, columns.x);
+  append(values, columns.y);
+  append(values, columns.z);
+}
+void append(std::vector<float>& values, const mat4<double>& m) {
+  const mat4<double> columns = transpose(m);
+  append(values, columns.x);
+  append(values, columns.y);
+  append(values, columns.z);
+  append(values, columns.w);
+}
+
+} // namespace
+
+StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shader,
+                             const std::vector<StackMap>& maps, PipelineCache& cache)
+    : device_(device), has_sunlight_(shader.has_sunlight) {
+  for (const SurfaceMember& m : shader.surface) {
+    if (m.of_object) {
+      object_members_.push_back(m);
+      continue;
+    }
+    attributes_.push_back({attribute_of(m.role), m.uv});
+    fragment_floats_ += floats_in(m.type);
+  }
+  std::vector<Binding> bindings{{fragments_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1},
+                                {results_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1},
+                                {object_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1}};
+  const auto add = [&](int binding, VkDescriptorType type, std::span<const std::byte> bytes) {
+    const std::uint32_t most = type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                   ? device.limits().maxUniformBufferRange
+                                   : device.limits().maxStorageBufferRange;
+    if (bytes.size() > most)
+      throw MachineError(fmt::format("cannot compose a material on \"{}\": it needs {} bytes in a buffer, "
+                                     "maxStorageBufferRange is {}",
+                                     device.info().name, bytes.size(), most));
+    bindings.push_back({static_cast<std::uint32_t>(binding), type, 1, 0});
+    stack_buffers_.push_back({static_cast<std::uint32_t>(binding), make_device_buffer(device, bytes)});
+  };
+  using Layout = shadergen::ExactLayout;
+  if (!shader.parameter_data.empty())
+    add(Layout::parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, shader.parameter_data);
+  if (shader.decal_count > 0) add(Layout::decals, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, shader.decal_data);
+  if (!maps.empty()) {
+    const MapWords words = words_of(maps);
+    add(Layout::words, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.words)));
+    add(Layout::maps, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.maps)));
+  }
+  constexpr std::uint32_t constant_bytes = 2 * sizeof(std::uint32_t);
+  const std::string text = text_of(shader);
+  pipeline_ = cache.pipeline(text, [&] {
+    return std::make_shared<const ComputePipeline>(device, compile({.text = text, .name = shader.name}),
+                                                   bindings, constant_bytes);
+  });
+}
+
+bool StackPipeline::wants(Attribute attribute) const {
+  return std::any_of(attributes_.begin(), attributes_.end(),
+                     [&](const StackAttribute& each) { return each.attribute == attribute; });
+}
+
+std::vector<float> StackPipeline::object_values(const engine::Placement& placement) const {
+  std::vector<float> values;
+  const mat4<double>& m = placement.world_from_object;
+  for (const SurfaceMember& member : object_members_) {
+    switch (member.role) {
+    case Role::world_from_object:
+      append(values, placement.linear);
+      break;
+    case Role::object_from_world:
+      append(values, placement.inverse_linear);
+      break;
+    case Role::object_origin:
+      append(values, vec3<double>{m.x.w, m.y.w, m.z.w} - placement.origin);
+      break;
+    case Role::world_origin:
+      append(values, placement.origin);
+      break;
+    case Role::to_sun:
+      append(values, placement.to_sun);
+      break;
+    case Role::relative_from_screen:
+      append(values, placement.relative_from_screen.value_or(mat4<double>{}));
+      break;
+    default:
+      assert(false);
+    }
+  }
+  if (values.empty()) values.push_back(0); // a buffer is never empty
+  return values;
+}
+
+BoundResources StackPipeline::bound(const Buffer& fragments, const Buffer& results,
+                                    const Buffer& object) const {
+  BoundResources resources(device_, *pipeline_);
+  for (const auto& [binding, buffer] : stack_buffers_) resources.bind(binding, buffer);
+  resources.bind(fragments_binding, fragments, 1);
+  resources.bind(results_binding, results, 1);
+  resources.bind(object_binding, object, 1);
+  return resources;
+}
+
+void StackPipeline::compose(VkCommandBuffer commands, const BoundResources& resources, std::uint32_t count,
+                            std::uint32_t stride) const {
+  const std::uint32_t constants[] = {count, stride};
+  resources.dispatch(commands, (count + lanes - 1) / lanes, 1, std::as_bytes(std::span(constants)));
+  barrier_after_writes(commands);
+}
+
+} // namespace surfgrad::gpu

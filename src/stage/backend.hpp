@@ -1,0 +1,35 @@
+#pragma once
+
+#include "engine/map_library.hpp"
+#include "engine/tiles.hpp"
+#include "scene/scene.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace surfgrad::stage {
+
+/// Composes pixels in the engine's stead.
+class Composer {
+ public:
+  virtual ~Composer() = default;
+  /// What engine::compose_tile does, for pixels of a material. Any number of threads at a time.
+  virtual void compose(const engine::TileWork& work, std::uint32_t material) const = 0;
+};
+
+/// A device that can stand in for the engine.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  /// Makes ready what the materials of a scene need.
+  ///
+  /// slots  texture coordinates that its surfaces carry
+  [[nodiscard]] virtual std::unique_ptr<Composer> prepare(const scene::Scene& scene,
+                                                          const std::vector<raster::UvSlot>& slots,
+                                                          engine::MapLibrary& maps) const = 0;
+  /// Samples along a side of the tiles that it is to be given.
+  [[nodiscard]] virtual int tile_side() const = 0;
+};
+
+} // namespace surfgrad::stage

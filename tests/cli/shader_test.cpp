@@ -1,0 +1,152 @@
+// surfgrad shader, and the commands of its page.
+
+#include "cli/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace surfgrad {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST(Shader, TheDemoInEveryLanguage) {
+  for (const char* language : {"glsl", "hlsl", "wgsl", "godot"}) {
+    const Folder folder;
+    const Outcome run = run_program({"shader", "--lang", language, "-o", "demo.txt"}, folder.path());
+    EXPECT_EQ(run.status, 0) << run.error;
+    EXPECT_THAT(run.out, StartsWith("wrote demo.txt ("));
+    EXPECT_THAT(run.error, IsEmpty());
+    EXPECT_THAT(folder.files(), ElementsAre("demo.txt", "demo.txt.json"));
+    EXPECT_THAT(text_of(folder.path() / "demo.txt"), HasSubstr("stack_normal("));
+    const auto json = nlohmann::json::parse(text_of(folder.path() / "demo.txt.json"));
+    EXPECT_EQ(json["language"], language);
+    EXPECT_EQ(json["textures"].size(), 3u);
+    EXPECT_EQ(json["textures"][0]["map"], "demo/plates");
+  }
+}
+
+TEST(Shader, StandaloneIncludesNothing) {
+  const Folder folder;
+  for (const bool standalone : {false, true}) {
+    std::vector<std::string> arguments{"shader", "--lang", "glsl", "-o", "a.glsl"};
+    if (standalone) arguments.push_back("--standalone");
+    EXPECT_EQ(run_program(arguments, folder.path()).status, 0);
+    const std::string code = text_of(folder.path() / "a.glsl");
+    EXPECT_EQ(code.find("#include \"surfgrad.glsl\"") == std::string::npos, standalone);
+    EXPECT_EQ(code.find("\nvec3 surfgrad_resolve_normal(") != std::string::npos, standalone);
+  }
+}
+
+TEST(Shader, NamesAndTheSummaryForMachines) {
+  const Folder folder;
+  const Outcome run =
+      run_program({"shader", "--lang", "wgsl", "--name", "skin", "-o", "a.wgsl", "--json"}, folder.path());
+  EXPECT_EQ(run.status, 0) << run.error;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["function"], "skin_normal");
+  EXPECT_EQ(json["bindings"], "a.wgsl.json");
+  EXPECT_THAT(text_of(folder.path() / "a.wgsl"), HasSubstr("fn skin_normal(s: SkinSurface) -> SkinResult"));
+  EXPECT_THAT(text_of(folder.path() / "a.wgsl"), Not(HasSubstr("stack_")));
+}
+
+TEST(Shader, TheOriginOfTextures) {
+  const Folder folder;
+  const auto flips = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"shader", "-o", "a"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(arguments, folder.path()).status, 0);
+    return text_of(folder.path() / "a").find("stack_from_top(") != std::string::npos;
+  };
+  EXPECT_FALSE(flips({"--lang", "glsl"}));
+  EXPECT_TRUE(flips({"--lang", "glsl", "--origin", "upper_left"}));
+  EXPECT_TRUE(flips({"--lang", "hlsl"}));
+  EXPECT_FALSE(flips({"--lang", "hlsl", "--origin", "lower_left"}));
+}
+
+TEST(Shader, AMaterialIsChosenByName) {
+  const Folder folder;
+  folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl skin\nf 1/1 2/2 3/3\n"
+                          "usemtl cloth\nf 1/1 3/3 2/2\n");
+  folder.write("two.json", R"({ "surfgrad": 1, "mesh": "two.obj", "materials": {
+    "skin": [ { "type": "noise", "frequency": 3 } ], "cloth": [ { "type": "noise", "function": "worley" } ] } })");
+  const Outcome open = run_program({"shader", "two.json", "--lang", "glsl", "-o", "a.glsl"}, folder.path());
+  EXPECT_EQ(open.status, 1);
+  EXPECT_THAT(
+      open.error,
+      HasSubstr("two.json: has 2 materials with layers; choose one: --material \"skin\" or \"cloth\""));
+  const Outcome wrong = run_program(
+      {"shader", "two.json", "--lang", "glsl", "-o", "a.glsl", "--material", "hair"}, folder.path());
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.error, HasSubstr("has no material \"hair\""));
+  EXPECT_THAT(folder.files(), ElementsAre("two.json", "two.obj"));
+  const Outcome run = run_program(
+      {"shader", "two.json", "--lang", "glsl", "-o", "a.glsl", "--material", "cloth"}, folder.path());
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(text_of(folder.path() / "a.glsl"), HasSubstr("surfgrad_worley("));
+}
+
+TEST(Shader, WhatCannotBeSaidIsRefusedAndLeavesNoFile) {
+  const Folder folder;
+  std::string layers;
+  for (int i = 0; i < 66; ++i) layers += i > 0 ? ", {}" : "{}";
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("n.ppm", "");
+  folder.write("many.json", "{ \"surfgrad\": 1, \"mesh\": \"a.obj\", \"layers\": [\n"
+                            "  { \"type\": \"decal\", \"map\": \"" SURFGRAD_SOURCE_DIR
+                            "/docs/images/demo.png\",\n"
+                            "    \"instances\": [" +
+                                layers + "] } ] }");
+  const Outcome run =
+      run_program({"shader", "many.json", "--lang", "godot", "-o", "a.gdshaderinc"}, folder.path());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(
+      run.error,
+      HasSubstr("many.json:2: layers[0]: brings the stack to 66 decals; a shader in this language takes 64"));
+  EXPECT_THAT(folder.files(), Not(testing::Contains(StartsWith("a.gd"))));
+}
+
+TEST(Shader, UsageMistakes) {
+  const Folder folder;
+  EXPECT_EQ(run_program({"shader", "-o", "a.glsl"}, folder.path()).status, 2);
+  EXPECT_EQ(run_program({"shader", "--lang", "cg", "-o", "a.cg"}, folder.path()).status, 2);
+  const Outcome name =
+      run_program({"shader", "--lang", "glsl", "--name", "My_Skin", "-o", "a"}, folder.path());
+  EXPECT_EQ(name.status, 2);
+  EXPECT_THAT(name.error, HasSubstr("is not a lower-case letter followed by letters and digits"));
+  EXPECT_THAT(folder.files(), IsEmpty());
+}
+
+TEST(Shader, ThePagesCommandsWork) {
+  const Folder folder;
+  std::ifstream page(SURFGRAD_SOURCE_DIR "/docs/shader-export.md");
+  const std::string program = "build/bin/surfgrad ";
+  int commands = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with(program)) continue;
+    std::istringstream words(line.substr(program.size()));
+    std::vector<std::string> arguments;
+    for (std::string word; words >> word;) arguments.push_back(word);
+    const Outcome run = run_program(arguments, folder.path());
+    EXPECT_EQ(run.status, 0) << line << "\n" << run.error;
+    ++commands;
+  }
+  EXPECT_GE(commands, 4);
+}
+
+} // namespace
+} // namespace surfgrad

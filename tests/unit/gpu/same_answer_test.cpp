@@ -1,0 +1,210 @@
+/// The device gives the engine's answer: the gallery's stacks rendered by both, the demo baked by both, and
+/// the same bytes however the picture is cut into tiles.
+
+#include "bake/bake.hpp"
+#include "gallery/figures.hpp"
+#include "golden/golden_scenes.hpp"
+#include "gpu/backend.hpp"
+#include "render/render.hpp"
+#include "support/vulkan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <set>
+#include <vector>
+
+namespace surfgrad::test {
+namespace {
+
+// What the project promises of every stack, in degrees: mean, and all but one pixel in a thousand.
+constexpr double most_mean = 0.005;
+constexpr double most_usual = 0.05;
+
+struct Agreement {
+  double mean = 0, usual = 0, worst = 0; ///< angles in degrees
+  std::size_t count = 0;
+};
+
+/// Of two pictures of vectors; pixels without a surface are left out.
+Agreement agreement(const image::Image& a, const image::Image& b) {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i + 2 < a.texels.size(); i += 3) {
+    const vec3<double> u{a.texels[i], a.texels[i + 1], a.texels[i + 2]};
+    const vec3<double> v{b.texels[i], b.texels[i + 1], b.texels[i + 2]};
+    if (max_abs(u) == 0 && max_abs(v) == 0) continue;
+    const double angle = std::atan2(length(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
+    angles.push_back(std::isnan(angle) ? 180 : angle);
+  }
+  Agreement result;
+  result.count = angles.size();
+  if (angles.empty()) return result;
+  std::sort(angles.begin(), angles.end());
+  for (const double angle : angles) result.mean += angle / static_cast<double>(angles.size());
+  result.usual = angles[static_cast<std::size_t>(0.999 * static_cast<double>(angles.size() - 1))];
+  result.worst = angles.back();
+  return result;
+}
+
+double largest_difference(const image::Image& a, const image::Image& b) {
+  double largest = a.texels.size() == b.texels.size() ? 0 : HUGE_VAL;
+  for (std::size_t i = 0; i < a.texels.size() && largest < HUGE_VAL; ++i)
+    largest = std::max(largest, std::abs(double{a.texels[i]} - double{b.texels[i]}));
+  return largest;
+}
+
+class SameAnswer : public VulkanTest {
+ protected:
+  static void TearDownTestSuite() {
+    shared_backend.reset();
+    VulkanTest::TearDownTestSuite();
+  }
+  static const gpu::Backend& backend() {
+    if (!shared_backend) shared_backend = std::make_unique<gpu::Backend>(device());
+    return *shared_backend;
+  }
+  static std::vector<gallery::Panel> panels_of(const char* figure) {
+    for (gallery::Figure& each : gallery::built_in_figures())
+      if (each.id == figure) return each.panels;
+    ADD_FAILURE() << "the gallery has no figure " << figure;
+    return {};
+  }
+
+ private:
+  inline static std::unique_ptr<gpu::Backend> shared_backend;
+};
+
+/// Figures whose panels differ in what their layers do. Of the others, which vary meshes, transforms and
+/// numbers, one panel stands for all, so that compiling shaders does not take the better part of all tests'
+/// time; SURFGRAD_WHOLE_GALLERY in the environment takes every one.
+bool differs_in_layers(const std::string& figure) {
+  static const std::set<std::string> all{"noise",    "projections",       "decals",     "decal-blends",
+                                         "parallax", "magnified-heights", "back-faces", "influences"};
+  return all.contains(figure) || std::getenv("SURFGRAD_WHOLE_GALLERY") != nullptr;
+}
+
+/// Heights and what rays meet: half of the time.
+bool has_heights(const std::string& figure) {
+  return figure.find("heights") != std::string::npos || figure.find("parallax") != std::string::npos;
+}
+
+/// The largest angles of a test's scenes.
+class Largest {
+ public:
+  ~Largest() {
+    std::printf("  %d scenes; largest mean %.2g, 99.9 %% %.2g, worst %.2g degrees\n", scenes_, angles_.mean,
+                angles_.usual, angles_.worst);
+    EXPECT_GT(scenes_, 0);
+  }
+  /// Renders a scene on both.
+  void compare(const gpu::Backend& backend, const scene::Scene& scene, const std::string& where) {
+    render::Options options{.width = 64, .height = 64, .aov = render::Aov::normal};
+    const render::Picture expected = render::render(scene, options);
+    options.backend = &backend;
+    const render::Picture got = render::render(scene, options);
+    const Agreement a = agreement(expected.image, got.image);
+    EXPECT_GT(a.count, 500u) << where << " shows next to nothing";
+    EXPECT_LT(a.mean, most_mean) << where;
+    EXPECT_LT(a.usual, most_usual) << where;
+    EXPECT_EQ(got.covered, expected.covered) << where;
+    EXPECT_EQ(got.degenerate, expected.degenerate) << where;
+    angles_.mean = std::max(angles_.mean, a.mean);
+    angles_.usual = std::max(angles_.usual, a.usual);
+    angles_.worst = std::max(angles_.worst, a.worst);
+    ++scenes_;
+  }
+
+ private:
+  Agreement angles_{};
+  int scenes_ = 0;
+};
+
+/// Renders the figures with heights, or the others, on both.
+void compare_figures(const gpu::Backend& backend, bool with_heights) {
+  Largest largest;
+  for (const gallery::Figure& figure : gallery::built_in_figures())
+    for (const gallery::Panel& panel : figure.panels) {
+      if (has_heights(figure.id) != with_heights) continue;
+      if (&panel != &figure.panels.front() && !differs_in_layers(figure.id)) continue;
+      largest.compare(backend, panel.scene(), figure.id + ", " + panel.id);
+    }
+}
+
+TEST_F(SameAnswer, RendersTheGallerysHeights) { compare_figures(backend(), true); }
+TEST_F(SameAnswer, RendersTheRestOfTheGallery) { compare_figures(backend(), false); }
+
+TEST_F(SameAnswer, RendersRealModels) {
+  if (!std::filesystem::exists(shared_assets())) GTEST_SKIP() << "no real assets at " << shared_assets();
+  Largest largest;
+  for (const GoldenScene& golden : golden_scenes()) largest.compare(backend(), load(golden), golden.name);
+}
+
+TEST_F(SameAnswer, BakesTheDemoInEverySpace) {
+  const scene::Scene scene = scene::demo_scene();
+  for (const bake::Space space : {bake::Space::tangent, bake::Space::object}) {
+    bake::Options options{.width = 128, .height = 128, .space = space};
+    const bake::Baked expected = bake::bake(scene, options);
+    options.backend = &backend();
+    const bake::Baked got = bake::bake(scene, options);
+    // Components of n / 2 + 1/2: an angle of 0.05 degrees moves them by 4.4e-4.
+    const double difference = largest_difference(expected.map, got.map);
+    std::printf("  largest difference of a component %.2g\n", difference);
+    EXPECT_LT(difference, 4.4e-4);
+    EXPECT_EQ(got.covered, expected.covered);
+    EXPECT_EQ(got.clamped, expected.clamped);
+    EXPECT_EQ(got.degenerate, expected.degenerate);
+  }
+}
+
+TEST_F(SameAnswer, ShadesWithSunlightThatTheReliefLetsThrough) {
+  const scene::Scene scene = panels_of("parallax").back().scene();
+  const scene::Scene shadowed = panels_of("parallax")[4].scene();
+  for (const scene::Scene* each : {&scene, &shadowed}) {
+    render::Options options{.width = 64, .height = 64, .samples = 1};
+    const render::Picture expected = render::render(*each, options);
+    options.backend = &backend();
+    const render::Picture got = render::render(*each, options);
+    // Where a shadow's border passes, one decision may fall differently: the mean tells.
+    double sum = 0;
+    for (std::size_t i = 0; i < got.image.texels.size(); ++i)
+      sum += std::abs(double{got.image.texels[i]} - double{expected.image.texels[i]});
+    const double mean = sum / static_cast<double>(got.image.texels.size());
+    std::printf("  mean difference %.2g\n", mean);
+    EXPECT_LT(mean, 1e-4);
+  }
+}
+
+TEST_F(SameAnswer, GivesEveryPictureThatARenderOffers) {
+  // From behind, in mode flip: the surface gradient is turned, the base normal is not.
+  const scene::Scene scene = panels_of("back-faces")[2].scene();
+  for (const render::Aov aov : {render::Aov::base_normal, render::Aov::surfgrad, render::Aov::uv}) {
+    render::Options options{.width = 64, .height = 64, .aov = aov};
+    const render::Picture expected = render::render(scene, options);
+    options.backend = &backend();
+    const render::Picture got = render::render(scene, options);
+    double largest = 0;
+    for (const float v : expected.image.texels) largest = std::max(largest, std::abs(double{v}));
+    EXPECT_GT(largest, 0.1) << "the picture is empty";
+    // Surface gradients grow towards silhouettes: relative to the largest.
+    EXPECT_LT(largest_difference(expected.image, got.image), 1e-4 * std::max(1.0, largest))
+        << static_cast<int>(aov);
+  }
+}
+
+TEST_F(SameAnswer, DoesNotDependOnTheTiles) {
+  const scene::Scene scene = scene::demo_scene();
+  bake::Options options{.width = 100, .height = 60};
+  options.backend = &backend();
+  const bake::Baked whole = bake::bake(scene, options);
+  for (const int side : {5, 64}) {
+    const gpu::Backend small(device(), side);
+    options.backend = &small;
+    // Where a triangle's interpolation begins depends on the tile, and rounds differently.
+    EXPECT_LT(largest_difference(bake::bake(scene, options).map, whole.map), 1e-4) << side;
+  }
+}
+
+} // namespace
+} // namespace surfgrad::test

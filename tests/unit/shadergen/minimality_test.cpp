@@ -1,0 +1,116 @@
+// Nothing stands in the code that the stack does not need, and nothing is computed twice.
+
+#include "stacks.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace surfgrad::shadergen::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Words of code, comments left out.
+std::map<std::string, int> words_of(const std::string& code) {
+  const std::string bare = std::regex_replace(code, std::regex("//[^\n]*"), "");
+  std::map<std::string, int> counts;
+  const std::regex word("[A-Za-z_][A-Za-z0-9_]*");
+  for (std::sregex_iterator i(bare.begin(), bare.end(), word), end; i != end; ++i) ++counts[i->str()];
+  return counts;
+}
+
+/// Names that a text declares at its outermost level.
+std::set<std::string> declared(const std::string& code) {
+  std::set<std::string> names;
+  const std::regex function(
+      "(?:^|\n)(?:fn )?(?:[A-Za-z][A-Za-z0-9_]* )?([A-Za-z_][A-Za-z0-9_]*)\\([^;{]*\\{");
+  const std::regex other("(?:^|\n)(?:struct|const (?:float|int)|static const (?:float|int)|const) "
+                         "([A-Za-z_][A-Za-z0-9_]*)");
+  for (const std::regex& pattern : {function, other})
+    for (std::sregex_iterator i(code.begin(), code.end(), pattern), end; i != end; ++i) names.insert((*i)[1]);
+  return names;
+}
+
+std::string standalone(const NamedStack& stack, Language language) {
+  Options options = options_of(stack, language);
+  options.standalone = true;
+  return generate(stack.layers, options).source;
+}
+
+TEST(Minimality, EveryDeclarationIsUsed) {
+  int seen = 0;
+  for (const NamedStack& stack : every_kind())
+    for (const Language language : every_language) {
+      const std::string code = standalone(stack, language);
+      const auto counts = words_of(code);
+      // What the program calls.
+      const std::set<std::string> given{stack.name + "_normal", stack.name + "_displaced",
+                                        stack.name + "_with_derivatives"};
+      for (const std::string& name : declared(code)) {
+        ++seen;
+        EXPECT_GE(counts.at(name), given.contains(name) ? 1 : 2)
+            << stack.name << ": " << name << " is not used";
+      }
+    }
+  EXPECT_GT(seen, 500);
+}
+
+TEST(Minimality, OneNormalMapTakesOneTextureAndHardlyAnyCode) {
+  for (const Language language : every_language) {
+    const std::string code = standalone(one_normal_map(), language);
+    for (const char* other : {"noise", "Noise", "perlin", "decal", "Decal", "hex", "parallax", "triplanar",
+                              "Frame", "dp_dx", "object_", "world_from"})
+      EXPECT_THAT(code, Not(HasSubstr(other)));
+    EXPECT_LT(std::count(code.begin(), code.end(), '\n'), 100);
+  }
+  const Shader shader = generate(one_normal_map().layers, options_of(one_normal_map(), Language::glsl));
+  EXPECT_EQ(shader.textures.size(), 1u);
+  EXPECT_EQ(shader.parameters.size(), 2u);                // scale and opacity
+  EXPECT_THAT(shader.source, Not(HasSubstr("(vec2 v)"))); // of two overloads the one that is called
+}
+
+TEST(Minimality, NothingIsComputedTwice) {
+  for (const NamedStack& stack : every_kind()) {
+    const std::string code = generate(stack.layers, options_of(stack, Language::glsl)).source;
+    const std::size_t begin = code.find("Result " + stack.name + "_normal(");
+    ASSERT_NE(begin, std::string::npos);
+    const std::string body = code.substr(begin, code.find("\n}\n", begin) - begin);
+    std::map<std::string, std::string> names; // expression -> the value that has it
+    const std::regex value("\n  [A-Za-z0-9]+ ([a-z0-9_]+) = ([^;]*);");
+    for (std::sregex_iterator i(body.begin(), body.end(), value), end; i != end; ++i) {
+      const auto [place, is_new] = names.emplace((*i)[2], (*i)[1]);
+      EXPECT_TRUE(is_new) << stack.name << ": " << (*i)[1] << " and " << place->second << " are both "
+                          << (*i)[2];
+    }
+  }
+}
+
+TEST(Minimality, SlopesInOneFrameAreSummedBeforeTheyBecomeVectors) {
+  const NamedStack stack = parsed("three", R"({ "surfgrad": 1, "layers": [
+    { "type": "normal_map", "map": "a.png", "basis": "derived" },
+    { "type": "normal_map", "map": "b.png", "basis": "derived", "scale": 0.5 },
+    { "type": "derivative_map", "map": "c.png", "basis": "derived" } ] })");
+  const auto counts = words_of(generate(stack.layers, options_of(stack, Language::glsl)).source);
+  EXPECT_EQ(counts.at("surfgrad_from_tbn"), 1);
+  EXPECT_EQ(counts.at("surfgrad_tangent_basis"), 1);
+  EXPECT_EQ(counts.at("surfgrad_resolve_normal"), 1);
+}
+
+TEST(Minimality, OneFileReadAlikeIsOneTexture) {
+  const NamedStack stack = parsed("same", R"({ "surfgrad": 1, "layers": [
+    { "type": "normal_map", "map": "a.png", "mask": { "map": "m.png" } },
+    { "type": "normal_map", "map": "a.png", "tile": 4, "mask": { "map": "m.png" } },
+    { "type": "normal_map", "map": "a.png", "wrap": "clamp" } ] })");
+  const Shader shader = generate(stack.layers, options_of(stack, Language::glsl));
+  EXPECT_EQ(shader.textures.size(), 3u);                              // the map in two ways, and the mask
+  EXPECT_EQ(words_of(shader.source).at("same_layer0_mask_value"), 2); // defined, and called once for both
+}
+
+} // namespace
+} // namespace surfgrad::shadergen::test
