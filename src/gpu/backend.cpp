@@ -45,7 +45,7 @@ void copy(const float* from, float* to, int count) {
 
 class DeviceComposer : public stage::Composer {
  public:
-  DeviceComposer(const Device& device, int tile_side, const scene::Scene& scene,
+  DeviceComposer(const Device& device, int tile_side, std::size_t most_fragments, const scene::Scene& scene,
                  const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library, PipelineCache& cache)
       : device_(device), slots_(slots) {
     std::size_t most_floats = StackPipeline::result_floats;
@@ -62,7 +62,7 @@ class DeviceComposer : public stage::Composer {
         device.limits().maxStorageBufferRange / (most_floats * sizeof(float)) - most_lanes;
     const std::size_t in_dispatch = std::size_t{device.limits().maxComputeWorkGroupCount[0]} * 64;
     const auto side = static_cast<std::size_t>(tile_side);
-    most_fragments_ = std::min({side * side, in_buffer, in_dispatch});
+    most_fragments_ = std::min({side * side, in_buffer, in_dispatch, most_fragments});
     fragment_bytes_ = stride_of(most_fragments_) * most_floats * sizeof(float);
     object_bytes_ = most_values * sizeof(float);
   }
@@ -162,13 +162,14 @@ class DeviceComposer : public stage::Composer {
 
 } // namespace
 
-Backend::Backend(const Device& device, int most_tile_side)
-    : device_(device), tile_side_(std::max(1, most_tile_side)) {}
+Backend::Backend(const Device& device, int most_tile_side, std::size_t most_fragments)
+    : device_(device), tile_side_(std::max(1, most_tile_side)),
+      most_fragments_(std::max<std::size_t>(1, most_fragments)) {}
 
 std::unique_ptr<stage::Composer> Backend::prepare(const scene::Scene& scene,
                                                   const std::vector<raster::UvSlot>& slots,
                                                   engine::MapLibrary& maps) const {
-  return std::make_unique<DeviceComposer>(device_, tile_side_, scene, slots, maps, cache_);
+  return std::make_unique<DeviceComposer>(device_, tile_side_, most_fragments_, scene, slots, maps, cache_);
 }
 
 } // namespace surfgrad::gpu

@@ -3,6 +3,9 @@
 #include "gpu/pipeline.hpp"
 #include "stage/backend.hpp"
 
+#include <cstddef>
+#include <cstdint>
+
 namespace surfgrad::gpu {
 
 /// Composes what render and bake ask for on a Vulkan device: fragments are interpolated by the processor,
@@ -14,7 +17,9 @@ class Backend : public stage::Backend {
   static constexpr int usual_tile_side = 128;
 
   /// most_tile_side  larger tiles are not asked for
-  explicit Backend(const Device& device, int most_tile_side = usual_tile_side);
+  /// most_fragments  of a tile that are on the device at a time, if its limits allow as many: for tests
+  explicit Backend(const Device& device, int most_tile_side = usual_tile_side,
+                   std::size_t most_fragments = SIZE_MAX);
 
   [[nodiscard]] std::unique_ptr<stage::Composer> prepare(const scene::Scene& scene,
                                                          const std::vector<raster::UvSlot>& slots,
@@ -24,6 +29,7 @@ class Backend : public stage::Backend {
  private:
   const Device& device_;
   int tile_side_;
+  std::size_t most_fragments_;
   mutable PipelineCache cache_{};
 };
 

@@ -204,6 +204,10 @@ TEST_F(SameAnswer, DoesNotDependOnTheTiles) {
     // Where a triangle's interpolation begins depends on the tile, and rounds differently.
     EXPECT_LT(largest_difference(bake::bake(scene, options).map, whole.map), 1e-4) << side;
   }
+  // A tile in parts is interpolated as a whole one.
+  const gpu::Backend narrow(device(), gpu::Backend::usual_tile_side, 333);
+  options.backend = &narrow;
+  EXPECT_EQ(largest_difference(bake::bake(scene, options).map, whole.map), 0);
 }
 
 } // namespace
