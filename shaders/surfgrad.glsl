@@ -262,7 +262,8 @@ SurfgradTangentFrame surfgrad_tangent_basis(SurfgradFrame frame, vec2 dst_dx, ve
   // The position's change along s, up to a positive factor, which normalisation removes.
   vec3 along_s = dst_dy.y * frame.sigma_x - dst_dx.y * frame.sigma_y;
   vec3 tangent =
-      (collapsed ? 0.0 : sign) * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
+      collapsed ? vec3(0.0)
+                : sign * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
   return SurfgradTangentFrame(tangent, (sign * frame.flip_sign) * cross(frame.normal, tangent));
 }
 

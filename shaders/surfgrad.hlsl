@@ -265,7 +265,8 @@ SurfgradTangentFrame surfgrad_tangent_basis(SurfgradFrame frame, float2 dst_dx, 
   // The position's change along s, up to a positive factor, which normalisation removes.
   float3 along_s = dst_dy.y * frame.sigma_x - dst_dx.y * frame.sigma_y;
   float3 tangent =
-      (collapsed ? 0.0 : sign) * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
+      collapsed ? float3(0.0, 0.0, 0.0)
+                : sign * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
   SurfgradTangentFrame result = {tangent, (sign * frame.flip_sign) * cross(frame.normal, tangent)};
   return result;
 }

@@ -272,7 +272,8 @@ fn surfgrad_tangent_basis(frame: SurfgradFrame, dst_dx: vec2f, dst_dy: vec2f) ->
   // The position's change along s, up to a positive factor, which normalisation removes.
   let along_s = dst_dy.y * frame.sigma_x - dst_dx.y * frame.sigma_y;
   let tangent =
-      select(sign, 0.0, collapsed) * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s));
+      select(sign * surfgrad_normalize_or_zero(surfgrad_detail_in_units_of_itself(along_s)), vec3f(0.0),
+             collapsed);
   return SurfgradTangentFrame(tangent, (sign * frame.flip_sign) * cross(frame.normal, tangent));
 }
 

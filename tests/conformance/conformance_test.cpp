@@ -168,7 +168,7 @@ bool agrees(const Row& row, Edge edge, double got, double expected, double bound
   case Edge::infinite:
     break;
   }
-  if (c == Class::finite) return row.nan == NanPolicy::open || class_of(got) == Class::finite;
+  if (c == Class::finite) return class_of(got) == Class::finite;
   return row.nan != NanPolicy::kept || class_of(got) == c;
 }
 

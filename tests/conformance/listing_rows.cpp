@@ -291,8 +291,6 @@ void add_listing_rows(std::vector<Row>& rows) {
     for (const char* name : clamping)
       if (row.name == name) row.nan = NanPolicy::may_vanish;
     row.overflows = row.name == "resolve_mikktspace";
-    // Collapsed coordinates multiply by 0 rather than select it.
-    if (row.name == "tangent_basis") row.nan = NanPolicy::open;
   }
 }
 

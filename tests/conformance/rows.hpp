@@ -15,7 +15,6 @@ namespace surfgrad::test {
 enum class NanPolicy {
   kept,       ///< NaN where the core gives NaN; a number where it gives one
   may_vanish, ///< also a number where the core gives NaN: the function clamps
-  open,       ///< also NaN where the core gives a number: a product with zero takes the place of a selection
 };
 
 struct Row {
