@@ -161,7 +161,7 @@ void add_shader_command(CLI::App& program) {
                                                              {"wgsl", shadergen::Language::wgsl},
                                                              {"godot", shadergen::Language::godot}};
   verb.add_option("--lang", command->job.language,
-                  "glsl (450 and ES 3.00), hlsl (shader model 5), wgsl or godot (4.4)")
+                  "glsl (450 and ES 3.00), hlsl (shader model 5), wgsl or godot (4.5)")
       ->required()
       ->transform(CLI::CheckedTransformer(languages).description(""))
       ->type_name("NAME")

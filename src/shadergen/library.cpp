@@ -90,8 +90,8 @@ Library::Library(std::string_view text, Language language) {
       continue;
     }
     if (t.kind == Kind::line) {
-      // Guards surround everything; any other condition is left out with what it holds.
-      int depth = t.text.starts_with("#ifdef") ? 1 : 0;
+      // The guard surrounds everything, the one #ifndef; any other condition is left out with what it holds.
+      int depth = t.text.starts_with("#if") && !t.text.starts_with("#ifndef") ? 1 : 0;
       for (++i; depth > 0 && i < tokens.size(); ++i) {
         if (tokens[i].text.starts_with("#if")) ++depth;
         if (tokens[i].text.starts_with("#endif")) --depth;

@@ -11,8 +11,8 @@ namespace surfgrad::shadergen {
 
 /// A shader file cut into its declarations: functions, structs, constants.
 ///
-/// Comments that stand directly before a declaration belong to it. Directives, and what stands between #ifdef
-/// SURFGRAD_FRAGMENT and its #endif, are left out.
+/// Comments that stand directly before a declaration belong to it. Directives, and what stands under a
+/// condition other than the file's guard, are left out.
 class Library {
  public:
   /// text must outlive the library.

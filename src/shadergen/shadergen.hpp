@@ -28,7 +28,7 @@ enum class Language {
   glsl, ///< 450 and ES 3.00 alike
   hlsl, ///< shader model 5.0
   wgsl,
-  godot, ///< Godot 4.4 and newer; always standalone
+  godot, ///< Godot 4.5 and newer; always standalone
 };
 
 /// How maps are read.

@@ -130,10 +130,23 @@ void expect_wgsl(const std::vector<NamedStack>& stacks, Options options) {
                   "WGSL");
 }
 
-/// Godot's language is GLSL but for its uniforms: without their hints and values it is checked as that.
+/// A word of GLSL that Godot's shading language lacks, as a declaration or at all; empty where there is none.
+std::string word_that_godot_lacks(const std::string& source) {
+  const std::string code = std::regex_replace(source, std::regex("//[^\n]*"), "");
+  static const std::regex words(
+      "\\b(precision|precise|layout|buffer|binding|shared|attribute|subroutine|coherent|"
+      "restrict|readonly|writeonly|dFdxFine|dFdyFine|gl_\\w+|double|dvec[234])\\b|"
+      "#(version|extension)\\b|(^|\n)(in|out)\\b");
+  std::smatch match;
+  return std::regex_search(code, match, words) ? match.str() : "";
+}
+
+/// Godot's language is GLSL but for its uniforms: without their hints and values it is checked as that, once
+/// it has none of the words that only GLSL has.
 void expect_godot(const std::vector<NamedStack>& stacks, Options options) {
   options.language = Language::godot;
   for (const Shader& shader : shaders_of(stacks, options)) {
+    EXPECT_EQ(word_that_godot_lacks(shader.source), "") << shader.name;
     std::string code = std::regex_replace(shader.source, std::regex("(\nuniform [^;:=]*)[:=][^;]*;"), "$1;");
     code = std::regex_replace(code, std::regex("\nuniform (sampler2D|samplerCube)"), "\nuniform highp $1");
     expect_accepted(
@@ -200,6 +213,18 @@ TEST(Compile, TheGalleryAndTheExamplesInEveryLanguage) {
   expect_glsl(stacks, {});
   expect_hlsl(stacks, {});
   expect_wgsl(stacks, {});
+  expect_godot(stacks, {});
+}
+
+TEST(Compile, WhatDependsOnTheCompilerIsSaidOnceAndUnderItsCondition) {
+  for (const NamedStack& stack : every_kind()) {
+    Options options = options_of(stack, Language::glsl);
+    options.standalone = true;
+    const std::string source = generate(stack.layers, options).source;
+    const std::size_t first = source.find("precision highp float;");
+    EXPECT_EQ(source.find("#ifdef GL_ES\nprecision highp float;"), first - 13) << stack.name;
+    EXPECT_EQ(source.find("precision highp float;", first + 1), std::string::npos) << stack.name;
+  }
 }
 
 } // namespace

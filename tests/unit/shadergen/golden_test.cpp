@@ -27,6 +27,7 @@ TEST(Golden, OneNormalMapInEveryLanguage) {
   expect_golden("bricks.glsl", source(one_normal_map(), Language::glsl));
   expect_golden("bricks.hlsl", source(one_normal_map(), Language::hlsl));
   expect_golden("bricks.wgsl", source(one_normal_map(), Language::wgsl));
+  expect_golden("bricks.gdshaderinc", source(one_normal_map(), Language::godot));
 }
 
 TEST(Golden, TwoPasses) {
