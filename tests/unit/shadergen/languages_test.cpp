@@ -247,7 +247,7 @@ class Languages : public surfgrad::test::VulkanTest {
     for (std::size_t i = 0; i < fragments.size(); ++i) {
       const vec3<double> truth = engine::compose(program, fragments[i], back_faces, placement).normal;
       const vec3<double> n{out[4 * i], out[4 * i + 1], out[4 * i + 2]};
-      worst = std::max(worst, unit_angle(n, truth));
+      worst = std::max(worst, surfgrad::test::unit_angle(n, truth));
     }
     return worst;
   }
