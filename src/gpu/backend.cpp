@@ -43,6 +43,9 @@ void copy(const float* from, float* to, int count) {
   if (to != nullptr) std::memcpy(to, from, static_cast<std::size_t>(count) * sizeof(float));
 }
 
+/// Of a thread's fragments on the device: more at a time would not be faster, and threads are many.
+constexpr std::size_t most_batch_bytes = std::size_t{64} << 20;
+
 class DeviceComposer : public stage::Composer {
  public:
   DeviceComposer(const Device& device, int tile_side, std::size_t most_fragments, const scene::Scene& scene,
@@ -53,13 +56,16 @@ class DeviceComposer : public stage::Composer {
     for (const scene::Material& material : scene.materials) {
       const shadergen::Shader shader = shader_of(scene, material);
       const StackMaps maps(shader, library);
-      pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, maps.maps(), cache));
+      pipelines_.push_back(
+          std::make_unique<StackPipeline>(device, shader, maps.maps(), cache, material.name));
       most_floats = std::max(most_floats, pipelines_.back()->fragment_floats());
       most_values = std::max(most_values, pipelines_.back()->object_values({}).size());
     }
     // Larger tiles are composed in parts.
     const std::size_t in_buffer =
-        device.limits().maxStorageBufferRange / (most_floats * sizeof(float)) - most_lanes;
+        std::min<std::size_t>(device.limits().maxStorageBufferRange, most_batch_bytes) /
+            (most_floats * sizeof(float)) -
+        most_lanes;
     const std::size_t in_dispatch = std::size_t{device.limits().maxComputeWorkGroupCount[0]} * 64;
     const auto side = static_cast<std::size_t>(tile_side);
     most_fragments_ = std::min({side * side, in_buffer, in_dispatch, most_fragments});

@@ -82,8 +82,34 @@ Candidate described(VkPhysicalDevice physical) {
     candidate.queue_family = *family;
   else
     candidate.info.lacks = "a queue that computes";
+  if (candidate.info.lacks.empty()) candidate.info.lacks = lacks(properties.limits);
   return candidate;
 }
+
+} // namespace
+
+std::string lacks(const VkPhysicalDeviceLimits& limits) {
+  // Of the pipelines that compose a material: fragments, results, values of the object; words, maps and
+  // decals of the stack; its parameters. The rest every device has.
+  const struct {
+    const char* name;
+    std::uint32_t has, needs;
+  } rows[] = {
+      {"maxPerStageDescriptorStorageBuffers", limits.maxPerStageDescriptorStorageBuffers, 6},
+      {"maxDescriptorSetStorageBuffers", limits.maxDescriptorSetStorageBuffers, 6},
+      {"maxPerStageDescriptorUniformBuffers", limits.maxPerStageDescriptorUniformBuffers, 1},
+      {"maxPerStageResources", limits.maxPerStageResources, 7},
+      {"maxBoundDescriptorSets", limits.maxBoundDescriptorSets, 2},
+      {"maxComputeWorkGroupInvocations", limits.maxComputeWorkGroupInvocations, 64},
+      {"maxComputeWorkGroupSize[0]", limits.maxComputeWorkGroupSize[0], 64},
+      {"maxPushConstantsSize", limits.maxPushConstantsSize, 8},
+  };
+  for (const auto& row : rows)
+    if (row.has < row.needs) return fmt::format("{} of {} or more: it has {}", row.name, row.needs, row.has);
+  return {};
+}
+
+namespace {
 
 std::vector<Candidate> candidates(const Instance& instance) {
   std::uint32_t count = 0;
@@ -127,8 +153,12 @@ Device::Device(const DeviceOptions& options) : instance_(options.validate) {
   queue.queueFamilyIndex = chosen.queue_family;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
+  // A shader's fault must not read another program's memory; every device has this feature.
+  VkPhysicalDeviceFeatures features{};
+  features.robustBufferAccess = VK_TRUE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pEnabledFeatures = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   VkDevice device = VK_NULL_HANDLE;

@@ -28,6 +28,9 @@ struct DeviceInfo {
 /// throws  MachineError where no driver is installed or no device is there
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 
+/// The first limit that is too low for composing a material, and its number; empty if none is.
+[[nodiscard]] std::string lacks(const VkPhysicalDeviceLimits& limits);
+
 struct DeviceOptions {
   int number = 0;        ///< of list_devices
   bool validate = false; ///< run the validation layer; for tests

@@ -183,8 +183,10 @@ void append(std::vector<float>& values, const mat4<double>& m) {
 } // namespace
 
 StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shader,
-                             const std::vector<StackMap>& maps, PipelineCache& cache)
+                             const std::vector<StackMap>& maps, PipelineCache& cache,
+                             const std::string& material, std::uint32_t most_bytes)
     : device_(device), has_sunlight_(shader.has_sunlight) {
+  const std::uint32_t most_storage = std::min(device.limits().maxStorageBufferRange, most_bytes);
   for (const SurfaceMember& m : shader.surface) {
     if (m.of_object) {
       object_members_.push_back(m);
@@ -196,25 +198,29 @@ StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shad
   std::vector<Binding> bindings{{fragments_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1},
                                 {results_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1},
                                 {object_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1}};
-  const auto add = [&](int binding, VkDescriptorType type, std::span<const std::byte> bytes) {
-    const std::uint32_t most = type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                   ? device.limits().maxUniformBufferRange
-                                   : device.limits().maxStorageBufferRange;
+  const auto add = [&](int binding, VkDescriptorType type, std::span<const std::byte> bytes,
+                       const char* what) {
+    const bool uniform = type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    const std::uint32_t most = uniform ? device.limits().maxUniformBufferRange : most_storage;
+    const char* const limit = uniform ? "maxUniformBufferRange" : "maxStorageBufferRange";
     if (bytes.size() > most)
-      throw MachineError(fmt::format("cannot compose a material on \"{}\": it needs {} bytes in a buffer, "
-                                     "maxStorageBufferRange is {}",
-                                     device.info().name, bytes.size(), most));
+      throw MachineError(fmt::format("cannot compose the material \"{}\" on \"{}\": {} need {} bytes in one "
+                                     "buffer, {} is {}; use {}, or "
+                                     "--device cpu",
+                                     material, device.info().name, what, bytes.size(), limit, most,
+                                     std::string_view(what) == "its maps" ? "smaller maps" : "fewer layers"));
     bindings.push_back({static_cast<std::uint32_t>(binding), type, 1, 0});
     stack_buffers_.push_back({static_cast<std::uint32_t>(binding), make_device_buffer(device, bytes)});
   };
   using Layout = shadergen::ExactLayout;
   if (!shader.parameter_data.empty())
-    add(Layout::parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, shader.parameter_data);
-  if (shader.decal_count > 0) add(Layout::decals, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, shader.decal_data);
+    add(Layout::parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, shader.parameter_data, "its numbers");
+  if (shader.decal_count > 0)
+    add(Layout::decals, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, shader.decal_data, "its decals");
   if (!maps.empty()) {
     const MapWords words = words_of(maps);
-    add(Layout::words, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.words)));
-    add(Layout::maps, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.maps)));
+    add(Layout::words, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.words)), "its maps");
+    add(Layout::maps, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.maps)), "its maps");
   }
   constexpr std::uint32_t constant_bytes = 2 * sizeof(std::uint32_t);
   const std::string text = text_of(shader);

@@ -5,7 +5,9 @@
 #include "image/height_field.hpp"
 #include "shadergen/shadergen.hpp"
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace surfgrad::gpu {
@@ -27,9 +29,11 @@ struct StackAttribute {
 class StackPipeline {
  public:
   /// cache   of pipelines: stacks that differ in numbers and maps alone share theirs
+  /// material    its name, for messages
+  /// most_bytes  of a storage buffer, if the device allows as many: for tests
   /// throws  MachineError where its maps exceed the device's buffers
   StackPipeline(const Device& device, const shadergen::Shader& shader, const std::vector<StackMap>& maps,
-                PipelineCache& cache);
+                PipelineCache& cache, const std::string& material, std::uint32_t most_bytes = UINT32_MAX);
 
   /// Arrays of a batch of fragments, in this order, each of floats_of its attribute.
   [[nodiscard]] const std::vector<StackAttribute>& attributes() const { return attributes_; }

@@ -18,6 +18,9 @@ StackMap stack_map_of(int map) {
                   stack_maps[first + 5u], stack_maps[first + 6u], stack_maps[first + 7u]);
 }
 
+// Of `count`: what a coordinate that is not a number, or a device's rounding, makes of an index stays in the buffer.
+uint stack_index(float i, float count) { return 0.0 < i ? uint(min(i, count - 1.0)) : 0u; }
+
 vec2 stack_map_size(int map) {
   uint levels = stack_maps[uint(8 * map) + 1u];
   return vec2(float(stack_words[levels]), float(stack_words[levels + 1u]));
@@ -94,7 +97,8 @@ vec3 stack_filter_level(StackMap map, uint level, vec2 st, int wrap_s, int wrap_
   uint words = map.format == 0u ? map.components : 1u;
   vec2 x = stack_linear_tap(st.x, float(width), wrap_s);
   vec2 y = stack_linear_tap(st.y, float(stack_words[row + 1u]), wrap_t);
-  uint word = map.texels + stack_words[row + 2u] + (uint(y.x) * (width + 1u) + uint(x.x)) * words;
+  uint word = map.texels + stack_words[row + 2u] + (stack_index(y.x, float(stack_words[row + 1u])) * (width + 1u) +
+                                                      stack_index(x.x, float(width))) * words;
   uint above = word + (width + 1u) * words;
   vec3 a = stack_texel(map, word), b = stack_texel(map, word + words);
   vec3 c = stack_texel(map, above), d = stack_texel(map, above + words);
@@ -110,12 +114,12 @@ vec3 stack_map_at(int number, vec2 coordinate, float lod, int wrap_s, int wrap_t
     uint width = stack_words[map.levels];
     uint words = map.format == 0u ? map.components : 1u;
     vec2 n = stack_map_size(number);
-    uint x = uint(min(max(st.x * n.x, 0.0), n.x - 1.0));
-    uint y = uint(min(max(st.y * n.y, 0.0), n.y - 1.0));
+    uint x = stack_index(st.x * n.x, n.x);
+    uint y = stack_index(st.y * n.y, n.y);
     return stack_texel(map, map.texels + stack_words[map.levels + 2u] + (y * (width + 1u) + x) * words);
   }
   if (filter_kind == 1) return stack_filter_level(map, 0u, st, wrap_s, wrap_t);
-  float clamped = min(max(lod, 0.0), float(map.level_count - 1u));
+  float clamped = 0.0 < lod ? min(lod, float(map.level_count - 1u)) : 0.0;
   float low = floor(clamped);
   float fraction = clamped - low;
   vec3 fine = stack_filter_level(map, uint(low), st, wrap_s, wrap_t);
@@ -198,7 +202,8 @@ vec3 stack_sample_cube_level(StackMap map, uint face, vec2 st, uint level) {
   vec2 low = floor(p);
   vec2 fraction = p - low;
   uint word =
-      map.texels + stack_words[row + 2u] + ((face * width + uint(low.y)) * (width + 1u) + uint(low.x)) * 3u;
+      map.texels + stack_words[row + 2u] + ((face * width + stack_index(low.y, float(width - 1u))) * (width + 1u) +
+                                                      stack_index(low.x, float(width))) * 3u;
   uint above = word + (width + 1u) * 3u;
   vec3 a = stack_texel(map, word), b = stack_texel(map, word + 3u);
   vec3 c = stack_texel(map, above), d = stack_texel(map, above + 3u);
@@ -220,7 +225,7 @@ vec3 stack_sample_cube(int number, vec3 d, float lod) {
   uint face = (x_major ? 0u : y_major ? 2u : 4u) + (negative ? 1u : 0u);
   vec2 st = vec2(right, up) / abs(major);
   StackMap map = stack_map_of(number);
-  float clamped = min(max(lod, 0.0), float(map.level_count - 1u));
+  float clamped = 0.0 < lod ? min(lod, float(map.level_count - 1u)) : 0.0;
   float low = floor(clamped);
   float fraction = clamped - low;
   vec3 fine = stack_sample_cube_level(map, face, st, uint(low));
@@ -249,22 +254,30 @@ struct StackSpan {
   float node;
 };
 
+// floor(a / b) of whole numbers below 2^24, 0 < b. A device's quotient may be wrong by 2.5 ulp, so that a multiple of b
+// falls one too low; products of such numbers are exact and correct it.
+float stack_floor_quotient(float a, float b) {
+  float q = floor(a / b);
+  float rest = a - q * b;
+  return rest < 0.0 ? q - 1.0 : b <= rest ? q + 1.0 : q;
+}
+
 StackSpan stack_span_of(StackRayAxis axis, float cell, float size) {
   bool single = size == 1.0;
   if (axis.wrap == 2) {
     const float far = 4194304.0; // no cell number that a ray meets is as large
     float first = single ? -1.0 : 0.0;
-    float node = floor(min(max(cell, first), axis.count - 1.0) / size);
+    float node = stack_floor_quotient(min(max(cell, first), axis.count - 1.0), size);
     float low = node * size;
     return StackSpan(first < low ? low : -far, low + size < axis.count ? low + size : far, node);
   }
   float period = axis.wrap == 1 ? axis.count + axis.count : axis.count;
-  float base = period * floor(cell / period);
+  float base = period * stack_floor_quotient(cell, period);
   float offset = cell - base;
   bool backwards = !(offset < axis.count);
   // Cell -1 between two mirror images shows texel 0 only, which cell 0 has as well.
   float inside = backwards ? max(period - 2.0 - offset, 0.0) : offset;
-  float node = floor(inside / size);
+  float node = stack_floor_quotient(inside, size);
   float low = node * size;
   float high = min(low + size, axis.count);
   float mirrored_high = low == 0.0 ? period : period - 1.0 - low;
@@ -276,9 +289,11 @@ StackSpan stack_span_of(StackRayAxis axis, float cell, float size) {
 float stack_texel_at(StackRayAxis axis, float i) {
   if (axis.wrap == 2) return min(max(i, 0.0), axis.count - 1.0);
   float period = axis.wrap == 1 ? axis.count + axis.count : axis.count;
-  float offset = i - period * floor(i / period);
+  float offset = i - period * stack_floor_quotient(i, period);
   return offset < axis.count ? offset : period - 1.0 - offset;
 }
+
+uint stack_texel_index(StackRayAxis axis, float i) { return stack_index(stack_texel_at(axis, i), axis.count); }
 
 float stack_within(StackRayAxis axis, float cell, float height) {
   return min(max(axis.start + height * axis.way - cell, 0.0), 1.0);
@@ -289,9 +304,9 @@ vec2 stack_cross_cell(StackRay ray, vec2 cell, float from, float to) {
   uint row = ray.field.levels + 3u * ray.level;
   uint stride = stack_words[row] + 1u;
   uint first = ray.field.texels + stack_words[row + 2u];
-  uint left = uint(stack_texel_at(ray.x, cell.x)), right = uint(stack_texel_at(ray.x, cell.x + 1.0));
-  uint below = first + stride * uint(stack_texel_at(ray.y, cell.y));
-  uint above = first + stride * uint(stack_texel_at(ray.y, cell.y + 1.0));
+  uint left = stack_texel_index(ray.x, cell.x), right = stack_texel_index(ray.x, cell.x + 1.0);
+  uint below = first + stride * stack_texel_index(ray.y, cell.y);
+  uint above = first + stride * stack_texel_index(ray.y, cell.y + 1.0);
   float corner = uintBitsToFloat(stack_words[below + left]);
   float along_x = uintBitsToFloat(stack_words[below + right]) - corner;
   float above_left = uintBitsToFloat(stack_words[above + left]);
@@ -321,8 +336,10 @@ vec2 stack_cross_cell(StackRay ray, vec2 cell, float from, float to) {
 // Largest height over the cells of a node.
 float stack_node_maximum(StackRay ray, float column, float line, float size, uint order) {
   uint first = stack_words[ray.field.rows + ray.level * ray.field.row_words + order];
-  uint width = uint(floor((ray.x.count + size - 1.0) / size));
-  return uintBitsToFloat(stack_words[ray.field.nodes + first + uint(line) * width + uint(column)]);
+  uint width = uint(stack_floor_quotient(ray.x.count + size - 1.0, size));
+  uint lines = uint(stack_floor_quotient(ray.y.count + size - 1.0, size));
+  uint node = stack_index(line, float(lines)) * width + stack_index(column, float(width));
+  return uintBitsToFloat(stack_words[ray.field.nodes + first + node]);
 }
 
 float stack_leaves_at(StackRayAxis axis, StackSpan span) {
@@ -394,7 +411,7 @@ StackRayAxis stack_ray_axis(float coordinate, float dst, float n, int wrap) {
 // A ray in texels of the level nearest to the LOD.
 StackRay stack_leveled_ray(int number, vec2 st, vec2 way, float lod, int wrap_s, int wrap_t) {
   StackMap field = stack_map_of(number);
-  uint level = uint(min(max(floor(lod + 0.5), 0.0), float(field.level_count - 1u)));
+  uint level = stack_index(floor(lod + 0.5), float(field.level_count));
   uint row = field.levels + 3u * level;
   vec2 count = max(vec2(float(stack_words[row]), float(stack_words[row + 1u])), vec2(1.0));
   vec2 dst = clamp(way, -1099511627776.0, 1099511627776.0);

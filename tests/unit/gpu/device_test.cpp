@@ -50,6 +50,16 @@ TEST_F(Devices, ThatAreNotThereAreNotReplacedByOthers) {
   EXPECT_THAT(machine_error([] { gpu::Device({.number = -1}); }), HasSubstr("cannot use Vulkan device -1"));
 }
 
+TEST_F(Devices, ThatLackALimitNameIt) {
+  EXPECT_EQ(gpu::lacks(device().limits()), "");
+  VkPhysicalDeviceLimits forged = device().limits();
+  forged.maxPerStageDescriptorStorageBuffers = 4; // the least that Vulkan allows
+  EXPECT_EQ(gpu::lacks(forged), "maxPerStageDescriptorStorageBuffers of 6 or more: it has 4");
+  forged = device().limits();
+  forged.maxComputeWorkGroupInvocations = 32;
+  EXPECT_EQ(gpu::lacks(forged), "maxComputeWorkGroupInvocations of 64 or more: it has 32");
+}
+
 TEST_F(Devices, WithoutADriverAreAMachineErrorInOneLine) {
   const std::string driver = std::getenv("VK_ICD_FILENAMES");
   setenv("VK_ICD_FILENAMES", "/nowhere.json", 1);

@@ -1,18 +1,21 @@
 /// The device gives the engine's answer: the gallery's stacks rendered by both, the demo baked by both, and
-/// the same bytes however the picture is cut into tiles.
+/// next to the same picture however it is cut into tiles: the same bytes where tiles are composed in parts.
 
 #include "bake/bake.hpp"
+#include "diagnostic/error.hpp"
 #include "gallery/figures.hpp"
 #include "golden/golden_scenes.hpp"
 #include "gpu/backend.hpp"
+#include "gpu/stack_pipeline.hpp"
+#include "image/pyramid.hpp"
 #include "render/render.hpp"
+#include "support/angle.hpp"
 #include "support/vulkan.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 #include <set>
 #include <vector>
 
@@ -35,8 +38,7 @@ Agreement agreement(const image::Image& a, const image::Image& b) {
     const vec3<double> u{a.texels[i], a.texels[i + 1], a.texels[i + 2]};
     const vec3<double> v{b.texels[i], b.texels[i + 1], b.texels[i + 2]};
     if (max_abs(u) == 0 && max_abs(v) == 0) continue;
-    const double angle = std::atan2(length(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
-    angles.push_back(std::isnan(angle) ? 180 : angle);
+    angles.push_back(unit_angle(u, v));
   }
   Agreement result;
   result.count = angles.size();
@@ -46,6 +48,23 @@ Agreement agreement(const image::Image& a, const image::Image& b) {
   result.usual = angles[static_cast<std::size_t>(0.999 * static_cast<double>(angles.size() - 1))];
   result.worst = angles.back();
   return result;
+}
+
+TEST(Agreements, AreOfNormalsAlone) {
+  const auto angle = [](std::vector<float> a, std::vector<float> b) {
+    image::Image u, v;
+    u.texels = std::move(a);
+    v.texels = std::move(b);
+    return agreement(u, v).worst;
+  };
+  const std::vector<float> up{0, 0, 1};
+  EXPECT_EQ(angle(up, up), 0);
+  EXPECT_NEAR(angle(up, {0, 1, 0}), 90, 1e-9);
+  EXPECT_EQ(angle(up, {0, 0, 0}), 180);
+  EXPECT_EQ(angle({0, 0, 0}, up), 180);
+  EXPECT_EQ(angle(up, {0, 0, NAN}), 180);
+  EXPECT_EQ(angle(up, {0, 0, 1.001f}), 180);
+  EXPECT_EQ(angle(up, {0, 0, 0.4f}), 180);
 }
 
 double largest_difference(const image::Image& a, const image::Image& b) {
@@ -166,11 +185,12 @@ TEST_F(SameAnswer, ShadesWithSunlightThatTheReliefLetsThrough) {
     const render::Picture expected = render::render(*each, options);
     options.backend = &backend();
     const render::Picture got = render::render(*each, options);
-    // Where a shadow's border passes, one decision may fall differently: the mean tells.
+    // Where a shadow's border passes, one decision may fall differently: the mean over the surface tells.
+    ASSERT_GT(expected.covered, 0);
     double sum = 0;
     for (std::size_t i = 0; i < got.image.texels.size(); ++i)
       sum += std::abs(double{got.image.texels[i]} - double{expected.image.texels[i]});
-    const double mean = sum / static_cast<double>(got.image.texels.size());
+    const double mean = sum / (3 * static_cast<double>(expected.covered));
     std::printf("  mean difference %.2g\n", mean);
     EXPECT_LT(mean, 1e-4);
   }
@@ -208,6 +228,26 @@ TEST_F(SameAnswer, DoesNotDependOnTheTiles) {
   const gpu::Backend narrow(device(), gpu::Backend::usual_tile_side, 333);
   options.backend = &narrow;
   EXPECT_EQ(largest_difference(bake::bake(scene, options).map, whole.map), 0);
+}
+
+TEST_F(SameAnswer, NamesTheMaterialWhoseMapsAreTooLarge) {
+  shadergen::Options options;
+  options.access = shadergen::TextureAccess::exact;
+  options.diagnostics = true;
+  const shadergen::Shader shader = shadergen::generate({}, options);
+  const std::vector<float> texels(64 * 64, 0.5f);
+  const image::Map map = image::with_pyramid(image::rows_of(texels, 64, 1), 64, 64, 1);
+  gpu::PipelineCache cache;
+  try {
+    gpu::StackPipeline(device(), shader, {{&map}}, cache, "brick", 100);
+    FAIL() << "maps larger than a buffer were taken";
+  } catch (const MachineError& error) {
+    using ::testing::HasSubstr;
+    EXPECT_THAT(error.what(),
+                ::testing::AllOf(HasSubstr("the material \"brick\""), HasSubstr("bytes in one buffer"),
+                                 HasSubstr("maxStorageBufferRange is 100"),
+                                 HasSubstr("use smaller maps, or --device cpu")));
+  }
 }
 
 } // namespace
