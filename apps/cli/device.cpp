@@ -42,14 +42,17 @@ CLI::Validator known_device() {
 } // namespace
 
 void add_device_options(CLI::App& verb, DeviceOptions& options) {
-  verb.add_option("--device", options.device,
-                  "what composes the normals: cpu (default), vulkan, or vulkan:N of surfgrad --list-devices")
-      ->check(known_device())
-      ->type_name("NAME")
-      ->option_text("NAME");
+  CLI::Option* const device =
+      verb.add_option(
+              "--device", options.device,
+              "what composes the normals: cpu (default), vulkan, or vulkan:N of surfgrad --list-devices")
+          ->check(known_device())
+          ->type_name("NAME")
+          ->option_text("NAME");
   verb.add_option("--max-tile", options.max_tile,
                   "most pixels along a side of what a device is given at a time")
       ->check(CLI::Range(1, 4096).description(""))
+      ->needs(device)
       ->type_name("N")
       ->option_text("N");
 }

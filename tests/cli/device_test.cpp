@@ -76,9 +76,14 @@ TEST_F(DeviceOption, RefusesOtherWords) {
     EXPECT_THAT(outcome.error, HasSubstr("is not a device")) << word;
   }
   for (const char* tile : {"0", "-1", "5000", "x"}) {
-    const Outcome outcome = run_program({"bake", "-o", "out.png", "--max-tile", tile}, folder_.path());
+    const Outcome outcome =
+        run_program({"bake", "-o", "out.png", "--device", "vulkan", "--max-tile", tile}, folder_.path());
     EXPECT_EQ(outcome.status, 2) << tile;
   }
+  // The processor has tiles of its own.
+  const Outcome outcome = run_program({"bake", "-o", "out.png", "--max-tile", "9"}, folder_.path());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.error, HasSubstr("--device"));
 }
 
 TEST_F(DeviceOption, GivesTheSamePictureInTilesOfAnySize) {
