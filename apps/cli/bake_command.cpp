@@ -82,7 +82,7 @@ void add_bake_command(CLI::App& program) {
   const std::map<std::string, bake::Space> spaces{
       {"tangent", bake::Space::tangent}, {"object", bake::Space::object}, {"world", bake::Space::world}};
   verb.add_option("--space", command->job.space, "tangent (default), object or world")
-      ->transform(CLI::CheckedTransformer(spaces).description(""))
+      ->transform(one_of(spaces))
       ->type_name("NAME")
       ->option_text("NAME");
   verb.callback([command] { run(*command); });

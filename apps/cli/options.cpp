@@ -59,7 +59,7 @@ void add_compress_option(CLI::App& verb, io::Compression& compression) {
   const std::map<std::string, io::Compression> names{{"fast", io::Compression::fast},
                                                      {"small", io::Compression::small}};
   verb.add_option("--compress", compression, "fast (default), or small: slower to write")
-      ->transform(CLI::CheckedTransformer(names).description(""))
+      ->transform(one_of(names))
       ->type_name("NAME")
       ->option_text("NAME");
 }

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -83,6 +84,22 @@ void check_output(const std::filesystem::path& output, image::Depth depth);
 
 /// Refuses the empty text that an unset shell variable leaves.
 [[nodiscard]] CLI::Validator not_empty();
+
+/// Takes one of these words and no other, for the value that it stands for. To be given to transform().
+template <class Enum>
+[[nodiscard]] CLI::Validator one_of(const std::map<std::string, Enum>& words) {
+  const auto value_of = [words](std::string& text) -> std::string {
+    const auto word = words.find(text);
+    if (word == words.end()) {
+      std::string known;
+      for (const auto& [name, value] : words) known += (known.empty() ? "" : ", ") + name;
+      return "\"" + text + "\" is none of " + known;
+    }
+    text = std::to_string(static_cast<int>(word->second)); // as enumerations are read
+    return "";
+  };
+  return CLI::Validator(value_of, "");
+}
 
 /// Runs work on the number of threads asked for; 0 is all that this process may use. Complains before the
 /// work about an instruction set that is asked for and not there.

@@ -96,7 +96,7 @@ void add_render_command(CLI::App& program) {
           "--aov", command->job.aov,
           "what to show: beauty (default), normal, base_normal, surfgrad or uv; EXR and float TIFF hold raw\n"
           "values, integer files v/2 + 1/2")
-      ->transform(CLI::CheckedTransformer(aovs).description(""))
+      ->transform(one_of(aovs))
       ->type_name("NAME")
       ->option_text("NAME");
   verb.add_option("--samples", command->job.samples,

@@ -163,7 +163,7 @@ void add_shader_command(CLI::App& program) {
   verb.add_option("--lang", command->job.language,
                   "glsl (450 and ES 3.00), hlsl (shader model 5), wgsl or godot (4.5)")
       ->required()
-      ->transform(CLI::CheckedTransformer(languages).description(""))
+      ->transform(one_of(languages))
       ->type_name("NAME")
       ->option_text("NAME");
   verb.add_flag("--standalone", command->job.standalone, "write the library functions that are used, too");
@@ -177,7 +177,7 @@ void add_shader_command(CLI::App& program) {
   const std::map<std::string, TextureOrigin> origins{{"lower_left", TextureOrigin::lower_left},
                                                      {"upper_left", TextureOrigin::upper_left}};
   verb.add_option("--origin", command->origin, "where texture coordinates begin: lower_left or upper_left")
-      ->transform(CLI::CheckedTransformer(origins).description(""))
+      ->transform(one_of(origins))
       ->type_name("NAME")
       ->option_text("NAME");
   verb.add_flag("-q,--quiet", command->quiet, "no summary (but --json)");

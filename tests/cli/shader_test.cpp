@@ -123,7 +123,11 @@ TEST(Shader, WhatCannotBeSaidIsRefusedAndLeavesNoFile) {
 TEST(Shader, UsageMistakes) {
   const Folder folder;
   EXPECT_EQ(run_program({"shader", "-o", "a.glsl"}, folder.path()).status, 2);
-  EXPECT_EQ(run_program({"shader", "--lang", "cg", "-o", "a.cg"}, folder.path()).status, 2);
+  for (const char* word : {"cg", "0", "GLSL", ""}) {
+    const Outcome language = run_program({"shader", "--lang", word, "-o", "a.cg"}, folder.path());
+    EXPECT_EQ(language.status, 2) << word;
+    EXPECT_THAT(language.error, HasSubstr(std::string(word) + "\" is none of glsl, godot, hlsl, wgsl"));
+  }
   const Outcome name =
       run_program({"shader", "--lang", "glsl", "--name", "My_Skin", "-o", "a"}, folder.path());
   EXPECT_EQ(name.status, 2);
