@@ -74,25 +74,15 @@ ChosenDevice::ChosenDevice(const DeviceOptions& options) {
 const stage::Backend* ChosenDevice::backend() const { return open_ ? &open_->backend : nullptr; }
 std::string ChosenDevice::name() const { return open_ ? open_->device.info().name : processor; }
 
-void add_device_list(CLI::App& program) {
-  program
-      .add_flag_callback(
-          "--list-devices",
-          [] {
-            std::cout << "cpu\n";
-            try {
-              int number = 0;
-              for (const gpu::DeviceInfo& each : gpu::list_devices())
-                std::cout << fmt::format(
-                    "vulkan:{}  {} ({}, {}){}\n", number++, each.name, each.kind, each.driver,
-                    each.lacks.empty() ? "" : ": cannot be used, it lacks " + each.lacks);
-            } catch (const MachineError& error) {
-              complain(error.what());
-            }
-            throw CLI::Success();
-          },
-          "print what --device takes, and end")
-      ->trigger_on_parse();
+static void print_vulkan_devices() {
+  try {
+    int number = 0;
+    for (const gpu::DeviceInfo& each : gpu::list_devices())
+      std::cout << fmt::format("vulkan:{}  {} ({}, {}){}\n", number++, each.name, each.kind, each.driver,
+                               each.lacks.empty() ? "" : ": cannot be used, it lacks " + each.lacks);
+  } catch (const MachineError& error) {
+    complain(error.what());
+  }
 }
 
 #else
@@ -106,19 +96,22 @@ ChosenDevice::ChosenDevice(const DeviceOptions& options) {
 const stage::Backend* ChosenDevice::backend() const { return nullptr; }
 std::string ChosenDevice::name() const { return processor; }
 
+static void print_vulkan_devices() {}
+
+#endif
+
 void add_device_list(CLI::App& program) {
   program
       .add_flag_callback(
           "--list-devices",
           [] {
             std::cout << "cpu\n";
+            print_vulkan_devices();
             throw CLI::Success();
           },
           "print what --device takes, and end")
       ->trigger_on_parse();
 }
-
-#endif
 
 ChosenDevice::~ChosenDevice() = default;
 

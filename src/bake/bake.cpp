@@ -31,7 +31,7 @@ class Bands {
  public:
   Bands(const stage::Stage& stage, const scene::Scene& scene, const Options& options)
       : scene_(scene), options_(options), slot_(stage.slot_of(0)),
-        tile_side_(options.backend != nullptr ? options.backend->tile_side() : stage::tile_side),
+        tile_side_(stage::tile_side_of(options.backend)),
         projection_(raster::Projection::texture(slot_, options.width, options.height)),
         composer_(stage, projection_, options.width, options.height, tile_side_, tile_side_,
                   {.vertex_frame = options.space == Space::tangent, .slot = slot_}),

@@ -5,18 +5,6 @@
 namespace surfgrad::engine {
 namespace {
 
-image::Wrap wrap_of(stack::Wrap wrap) {
-  switch (wrap) {
-  case stack::Wrap::mirror:
-    return image::Wrap::mirror;
-  case stack::Wrap::clamp:
-    return image::Wrap::clamp;
-  case stack::Wrap::repeat:
-    break;
-  }
-  return image::Wrap::repeat;
-}
-
 image::Filter filter_of(stack::Filter filter) {
   switch (filter) {
   case stack::Filter::nearest:

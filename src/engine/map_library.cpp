@@ -33,6 +33,18 @@ std::string number_of(Enum word) {
 
 } // namespace
 
+image::Wrap wrap_of(stack::Wrap wrap) {
+  switch (wrap) {
+  case stack::Wrap::mirror:
+    return image::Wrap::mirror;
+  case stack::Wrap::clamp:
+    return image::Wrap::clamp;
+  case stack::Wrap::repeat:
+    break;
+  }
+  return image::Wrap::repeat;
+}
+
 template <class Make>
 std::shared_ptr<const image::Map> MapLibrary::made_once(const std::string& kind, const stack::FileName& file,
                                                         int components, const Make& make) {

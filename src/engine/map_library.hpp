@@ -18,6 +18,8 @@
 
 namespace surfgrad::engine {
 
+[[nodiscard]] image::Wrap wrap_of(stack::Wrap wrap);
+
 /// Turns images into sampled maps, each combination once, and counts what was odd about them.
 class MapLibrary {
  public:

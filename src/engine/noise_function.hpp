@@ -85,22 +85,6 @@ template <LaneScalar T, class Basis>
   return fractal_sum(p, {1}, width, basis);
 }
 
-[[nodiscard]] inline stack::NoiseBasis basis_of(const stack::NoiseFunction& function) {
-  switch (function.function) {
-  case stack::NoiseKind::perlin:
-    return stack::NoiseBasis::perlin;
-  case stack::NoiseKind::simplex:
-    return stack::NoiseBasis::simplex;
-  case stack::NoiseKind::worley:
-    return stack::NoiseBasis::worley;
-  case stack::NoiseKind::fractal_sum:
-  case stack::NoiseKind::turbulence:
-  case stack::NoiseKind::ridged:
-    break;
-  }
-  return function.basis;
-}
-
 } // namespace detail
 
 /// Value and gradient of a stack's noise function.
@@ -118,7 +102,7 @@ template <LaneScalar T>
   const vec3<T> p = frequency * position;
   const T cells_per_pixel = frequency * width;
   Noise<T> noise;
-  switch (detail::basis_of(function)) {
+  switch (basis_of(function)) {
   case stack::NoiseBasis::perlin:
     noise = detail::sum(function, p, cells_per_pixel, PerlinAt{from});
     break;

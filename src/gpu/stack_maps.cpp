@@ -6,18 +6,6 @@ namespace {
 using shadergen::MapKind;
 using shadergen::TextureBinding;
 
-image::Wrap wrap_of(stack::Wrap wrap) {
-  switch (wrap) {
-  case stack::Wrap::mirror:
-    return image::Wrap::mirror;
-  case stack::Wrap::clamp:
-    return image::Wrap::clamp;
-  case stack::Wrap::repeat:
-    break;
-  }
-  return image::Wrap::repeat;
-}
-
 /// What is one map.
 std::shared_ptr<const image::Map> map_of(const TextureBinding& t, engine::MapLibrary& library) {
   const stack::FileName& file = t.files.front();
@@ -31,7 +19,7 @@ std::shared_ptr<const image::Map> map_of(const TextureBinding& t, engine::MapLib
   case MapKind::heights:
     return library.heights(file, t.channel);
   case MapKind::height_slopes:
-    return library.height_slopes(file, t.channel, {wrap_of(t.wrap_s), wrap_of(t.wrap_t)});
+    return library.height_slopes(file, t.channel, {engine::wrap_of(t.wrap_s), engine::wrap_of(t.wrap_t)});
   case MapKind::directions:
     return library.directions(file, t.green);
   case MapKind::weights:

@@ -37,10 +37,6 @@ vec3<double> decoded(const Image& image, std::size_t texel) {
   return finite ? m : vec3<double>{0, 0, 0};
 }
 
-std::size_t texel_count(const Image& image) {
-  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-}
-
 NormalChannels believed(const Image& image, NormalChannels channels) {
   if (channels != NormalChannels::automatic) return channels;
   const bool two = image.channels <= 2 || (third_channel_is_constant(image) && other_channels_vary(image));
@@ -82,15 +78,20 @@ SlopeMap make_encoded_map(const Image& image, NormalChannels channels, bool gree
   SlopeMap result;
   result.channels = believed(image, channels);
   const std::size_t components = result.channels == NormalChannels::xy ? 2 : 3;
-  const TexelRows rows = rows_of_texels(image, components, [&](std::size_t i, float* normal) {
-    const vec3<double> m = decoded(image, i);
-    const double encoded[] = {m.x, green_up ? m.y : -m.y, m.z};
-    for (std::size_t c = 0; c < components; ++c) normal[c] = static_cast<float>(encoded[c]);
-  });
+  std::vector<int> inward(static_cast<std::size_t>(image.height)); // of each row, however often it is made
+  const TexelRows rows = [&](int y, float* normal) {
+    int count = 0;
+    for (int x = 0; x < image.width; ++x) {
+      const vec3<double> m = decoded(image, static_cast<std::size_t>(y) * image.width + x);
+      const double encoded[] = {m.x, green_up ? m.y : -m.y, m.z};
+      for (std::size_t c = 0; c < components; ++c) *normal++ = static_cast<float>(encoded[c]);
+      count += components == 3 && !(m.z > 0) ? 1 : 0;
+    }
+    inward[static_cast<std::size_t>(y)] = count;
+  };
   result.map = with_pyramid(rows, image.width, image.height, static_cast<int>(components));
   result.map.encoded = true;
-  for (std::size_t i = 0; components == 3 && i < texel_count(image); ++i)
-    result.inward_texels += decoded(image, i).z > 0 ? 0 : 1;
+  result.inward_texels = std::accumulate(inward.begin(), inward.end(), std::int64_t{0});
   return result;
 }
 

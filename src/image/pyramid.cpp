@@ -92,7 +92,7 @@ void store_row(const float* texels, std::size_t width, std::size_t components, c
     break;
   case TexelFormat::unorm16:
     for (std::size_t x = 0; x < width; ++x) words[x] = code_of(x) | code_of(x + 1 < width ? x + 1 : 0) << 16;
-    words[width] = code_of(0) | code_of(width > 1 ? 1 : 0) << 16;
+    words[width] = words[0];
     break;
   }
 }

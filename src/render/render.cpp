@@ -59,8 +59,7 @@ class Bands {
   Bands(const stage::Stage& stage, const raster::Projection& projection, const Options& options,
         const Shading* shading)
       : options_(options), shading_(shading), side_(samples_along_a_side(options)),
-        pixels_(std::max(1, (options.backend != nullptr ? options.backend->tile_side() : stage::tile_side) /
-                                side_)),
+        pixels_(std::max(1, stage::tile_side_of(options.backend) / side_)),
         composer_(stage, projection, options.width * side_, options.height * side_, pixels_ * side_,
                   pixels_ * side_, outputs_of(options.aov, options.aov == Aov::uv ? stage.slot_of(0) : 0)),
         values_([this] { return Values(static_cast<std::size_t>(pixels_ * side_ * pixels_ * side_)); }) {}

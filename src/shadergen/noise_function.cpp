@@ -3,22 +3,6 @@
 namespace surfgrad::shadergen {
 namespace {
 
-stack::NoiseBasis basis_of(const stack::NoiseFunction& function) {
-  switch (function.function) {
-  case stack::NoiseKind::perlin:
-    return stack::NoiseBasis::perlin;
-  case stack::NoiseKind::simplex:
-    return stack::NoiseBasis::simplex;
-  case stack::NoiseKind::worley:
-    return stack::NoiseBasis::worley;
-  case stack::NoiseKind::fractal_sum:
-  case stack::NoiseKind::turbulence:
-  case stack::NoiseKind::ridged:
-    break;
-  }
-  return function.basis;
-}
-
 /// The noise at a point.
 std::string noise_at(const stack::NoiseFunction& function, const std::string& p) {
   switch (basis_of(function)) {

@@ -24,4 +24,21 @@ struct NoiseFunction {
   static const Fields<NoiseFunction>& fields();
 };
 
+/// The noise that a function is, or is summed from.
+[[nodiscard]] inline NoiseBasis basis_of(const NoiseFunction& function) {
+  switch (function.function) {
+  case NoiseKind::perlin:
+    return NoiseBasis::perlin;
+  case NoiseKind::simplex:
+    return NoiseBasis::simplex;
+  case NoiseKind::worley:
+    return NoiseBasis::worley;
+  case NoiseKind::fractal_sum:
+  case NoiseKind::turbulence:
+  case NoiseKind::ridged:
+    break;
+  }
+  return function.basis;
+}
+
 } // namespace surfgrad::stack

@@ -32,4 +32,12 @@ class Backend {
   [[nodiscard]] virtual int tile_side() const = 0;
 };
 
+/// Samples along a side of a job's tiles.
+///
+/// backend  null for the engine
+[[nodiscard]] inline int tile_side_of(const Backend* backend) {
+  constexpr int of_the_engine = 32; // fits the first caches with all that is kept of a pixel
+  return backend != nullptr ? backend->tile_side() : of_the_engine;
+}
+
 } // namespace surfgrad::stage

@@ -38,15 +38,11 @@ struct ComposedTile {
   std::span<const Run> runs{};
 };
 
-/// Pixels along a side of a tile that jobs ask for: it fits the first caches with all that is kept of a
-/// pixel.
-inline constexpr int tile_side = 32;
-
 /// Composes what a raster shows, tile by tile, on any number of threads. Memory is a few tiles' a thread.
 class TileComposer {
  public:
   /// stage, projection  must outlive the composer
-  /// tile_width, tile_height  in pixels, about tile_side
+  /// tile_width, tile_height  in pixels, about tile_side_of(backend)
   TileComposer(const Stage& stage, const raster::Projection& projection, int width, int height,
                int tile_width, int tile_height, const Outputs& outputs);
   ~TileComposer();

@@ -23,12 +23,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 std::set<std::string> pictures_named_by(const std::string& html) {
   std::set<std::string> names;
   for (std::size_t at = 0; (at = html.find("src=\"", at)) != std::string::npos;) {

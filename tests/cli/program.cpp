@@ -12,16 +12,29 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace surfgrad {
-namespace {
-
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-} // namespace
+int run_commands_of(const std::filesystem::path& page, const Folder& folder) {
+  std::ifstream lines(SURFGRAD_SOURCE_DIR / page);
+  const std::string program = "build/bin/surfgrad ";
+  int commands = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(program)) continue;
+    std::istringstream words(line.substr(program.size()));
+    std::vector<std::string> arguments;
+    for (std::string word; words >> word;) arguments.push_back(word);
+    const Outcome run = run_program(arguments, folder.path());
+    EXPECT_EQ(run.status, 0) << line << "\n" << run.error;
+    ++commands;
+  }
+  return commands;
+}
 
 Running::Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  const Streams& streams)

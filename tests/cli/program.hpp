@@ -54,6 +54,15 @@ class Running {
   int child_ = 0;
 };
 
+/// What a file holds.
+[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+
+/// Runs every command `build/bin/surfgrad ...` of a page of the project, in order, in a folder; each must end
+/// with status 0.
+///
+/// returns  how many there are
+[[nodiscard]] int run_commands_of(const std::filesystem::path& page, const Folder& folder);
+
 /// Runs build/bin/surfgrad in a folder and waits for it.
 [[nodiscard]] Outcome run_program(const std::vector<std::string>& arguments,
                                   const std::filesystem::path& folder, const Streams& streams = {});

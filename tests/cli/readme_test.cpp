@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
+#include <filesystem>
 
 namespace surfgrad {
 namespace {
@@ -17,19 +16,7 @@ TEST(Readme, ItsCommandsWork) {
   std::filesystem::create_directories(folder.path() / "build/demo");
   std::filesystem::copy(source / "examples", folder.path() / "examples",
                         std::filesystem::copy_options::recursive);
-  std::ifstream readme(source / "README.md");
-  const std::string program = "build/bin/surfgrad ";
-  int commands = 0;
-  for (std::string line; std::getline(readme, line);) {
-    if (!line.starts_with(program)) continue;
-    std::istringstream words(line.substr(program.size()));
-    std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word);
-    const Outcome run = run_program(arguments, folder.path());
-    EXPECT_EQ(run.status, 0) << line << "\n" << run.error;
-    ++commands;
-  }
-  EXPECT_GE(commands, 3);
+  EXPECT_GE(run_commands_of("README.md", folder), 3);
 }
 
 } // namespace

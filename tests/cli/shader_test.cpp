@@ -6,10 +6,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
-#include <sstream>
-
 namespace surfgrad {
 namespace {
 
@@ -18,11 +14,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 TEST(Shader, TheDemoInEveryLanguage) {
   for (const char* language : {"glsl", "hlsl", "wgsl", "godot"}) {
@@ -137,19 +128,7 @@ TEST(Shader, UsageMistakes) {
 
 TEST(Shader, ThePagesCommandsWork) {
   const Folder folder;
-  std::ifstream page(SURFGRAD_SOURCE_DIR "/docs/shader-export.md");
-  const std::string program = "build/bin/surfgrad ";
-  int commands = 0;
-  for (std::string line; std::getline(page, line);) {
-    if (!line.starts_with(program)) continue;
-    std::istringstream words(line.substr(program.size()));
-    std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word);
-    const Outcome run = run_program(arguments, folder.path());
-    EXPECT_EQ(run.status, 0) << line << "\n" << run.error;
-    ++commands;
-  }
-  EXPECT_GE(commands, 4);
+  EXPECT_GE(run_commands_of("docs/shader-export.md", folder), 4);
 }
 
 } // namespace

@@ -1,20 +1,14 @@
-#include "shadergen/layers/basis.hpp"
-#include "shadergen/layers/influence.hpp"
 #include "shadergen/layers/layers.hpp"
+#include "shadergen/layers/slope_map.hpp"
 
 namespace surfgrad::shadergen {
 
 void write(const stack::NormalMapLayer& layer, Generator& generator) {
-  const Influence influence = influence_of(generator, layer.common);
   TextureBinding binding =
       binding_of(layer.map.filter == stack::Filter::normal ? MapKind::normals : MapKind::slopes, layer.map);
   binding.channels = layer.map.channels;
   binding.green = layer.map.green;
-  const MapUse map(generator, layer.map, std::move(binding), "map");
-  const std::string basis = basis_of(generator, layer.map.uv, layer.basis == stack::Basis::derived);
-  generator.add_slope(
-      influence.weight, influence.scale, influence.mix, basis,
-      fmt::format("{}({})", map.slope_function(), coordinate_arguments(generator, layer.map.uv)));
+  add_slope_map(generator, layer, std::move(binding));
 }
 
 } // namespace surfgrad::shadergen

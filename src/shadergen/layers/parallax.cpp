@@ -145,9 +145,10 @@ class Parallax {
     const std::string displaced = value(
         "displaced", "vec3", "surfgrad_surface_offset({0}, {1}, {2}, {3}) + (({4} - {5}) * {6}) * {0}.normal",
         frame, dst_dx, dst_dy, way_, height_, level_, displacement_);
-    const std::string moves = value(
-        "shift", "vec3", "select({} || ({} && surfgrad_max_abs(s.to_viewer) == 0.0), {}, vec3(0.0, 0.0, 0.0))",
-        seen_, sound_, displaced);
+    const std::string moves =
+        value("shift", "vec3",
+              "select({} || ({} && surfgrad_max_abs(s.to_viewer) == 0.0), {}, vec3(0.0, 0.0, 0.0))", seen_,
+              sound_, displaced);
     const std::string own_st = value("moved_st", "vec2", "{} + {}", st, way_);
     g_.line("s.position = s.position + {};", moves);
     for (const SurfaceMember& m : g_.expected_surface()) {
