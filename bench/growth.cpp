@@ -3,7 +3,7 @@
 /// Method  Layers of every kind, 1 to 32, and decals, 1 to 1000, in one bake of a torus; parallax, which
 ///         needs a viewer, in a picture of it. Threads: one, two, and two processes of one thread each, which
 ///         share nothing but the machine. Sizes: each in a process of its own, whose peak of memory is read
-///         back; inputs are decoded before, the result is handed over in bands and dropped.
+///         back. Inputs are decoded before, results are handed over in bands and dropped.
 
 #include "growth.hpp"
 
@@ -152,15 +152,20 @@ std::vector<Kind> kinds() {
           {"parallax (in a picture)", parallax(), true}};
 }
 
+/// Results are not wanted.
+void drop(const image::Image& /*band*/) {}
+
 Time bake_time(const scene::Scene& scene, int size, int threads) {
   return timed([&] {
-    limited_to(threads, [&] { (void)bake::bake(scene, {size, size, bake::Space::tangent}); });
+    limited_to(threads, [&] { (void)bake::bake_bands(scene, {size, size, bake::Space::tangent}, drop); });
   });
 }
 
 Time picture_time(const scene::Scene& scene, int size, int threads) {
   return timed([&] {
-    limited_to(threads, [&] { (void)render::render(scene, {.width = size, .height = size, .samples = 1}); });
+    limited_to(threads, [&] {
+      (void)render::render_bands(scene, {.width = size, .height = size, .samples = 1}, drop);
+    });
   });
 }
 
@@ -303,9 +308,7 @@ void bake_when_told(int size, int map_size) {
     std::ofstream("/proc/self/clear_refs") << "5"; // the peak starts anew
     const double before = 1024 * own_kilobytes("VmRSS:");
     const Time time = timed([&] {
-      limited_to(1, [&] {
-        (void)bake::bake_bands(scene, {size, size, bake::Space::tangent}, [](const image::Image&) {});
-      });
+      limited_to(1, [&] { (void)bake::bake_bands(scene, {size, size, bake::Space::tangent}, drop); });
     });
     std::cout << fmt::format("child: {} {} {} {}", time.cpu, time.wall, before,
                              1024 * own_kilobytes("VmHWM:"))
