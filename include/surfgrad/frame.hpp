@@ -56,10 +56,12 @@ template <Scalar T>
   const mask_t<T> no_y = abs(normal.y) < tiny;
   const mask_t<T> no_z = abs(normal.z) < tiny;
   const mask_t<T> absent = no_x & no_y & no_z;
-  if (!any(absent)) return normalize_or_zero(normal);
-  // Normalise the factors first: their product would underflow for a microscopic footprint.
-  const vec3<T> plane = plane_sign * cross(normalize_or_zero(dp_dx), normalize_or_zero(dp_dy));
-  return normalize_or_zero(select<T>(absent, plane, normal));
+  if (any(absent)) [[unlikely]] {
+    // Normalise the factors first: their product would underflow for a microscopic footprint.
+    const vec3<T> plane = plane_sign * cross(normalize_or_zero(dp_dx), normalize_or_zero(dp_dy));
+    normal = select<T>(absent, plane, normal);
+  }
+  return normalize_or_zero(normal);
 }
 
 } // namespace detail

@@ -18,8 +18,10 @@ template <Scalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE vec3<T> resolve_normal(const Frame<T>& frame, vec3<T> surfgrad) {
   const T zero = T(value_t<T>(0));
   const mask_t<T> absent = (frame.normal.x == zero) & (frame.normal.y == zero) & (frame.normal.z == zero);
-  const vec3<T> resolved = normalize_or_zero(frame.normal - frame.resolve_sign * surfgrad);
-  return select<T>(absent, vec3<T>{zero, zero, zero}, resolved);
+  vec3<T> resolved = normalize_or_zero(frame.normal - frame.resolve_sign * surfgrad);
+  if (any(absent)) [[unlikely]]
+    resolved = select<T>(absent, vec3<T>{zero, zero, zero}, resolved);
+  return resolved;
 }
 
 /// Turns the result of mode mirror into that of mode flip, after the last resolve: reflect(-n', n).

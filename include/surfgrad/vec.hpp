@@ -153,19 +153,23 @@ template <Scalar T>
   const T one = T(value_t<T>(1));
   const T square = dot(v, v);
   const mask_t<T> usual = (T(least_square<T>) < square) & (square < T(most_square<T>));
-  const T inverse = one / sqrt(select(usual, square, one));
-  const Normalized<T> result{inverse * v, inverse};
-  if (all(usual)) return result;
-  // A power of two brings any other into that range, so that no result depends on which way it went.
-  constexpr value_t<T> large = 1 / (std::numeric_limits<value_t<T>>::min() * value_t<T>(1ll << 50));
-  const T zero = T(value_t<T>(0));
-  const T size = max_abs(v);
-  const mask_t<T> vanishes = size < T(std::numeric_limits<value_t<T>>::min());
-  const T factor = select(vanishes, zero, select(size < one, T(large), T(1 / large)));
-  const vec3<T> w = factor * v;
-  const T inverse_of_w = one / sqrt(select(vanishes, one, dot(w, w)));
-  return {select<T>(usual, result.unit, inverse_of_w * w),
-          select(usual, result.inverse_length, inverse_of_w * factor)};
+  // Nothing stands between the square and its root, which packs wait for: what comes of an unusual square is
+  // not used.
+  const T inverse = one / sqrt(square);
+  Normalized<T> result{inverse * v, inverse};
+  if (!all(usual)) [[unlikely]] {
+    // A power of two brings any other into that range, so that no result depends on which way it went.
+    constexpr value_t<T> large = 1 / (std::numeric_limits<value_t<T>>::min() * value_t<T>(1ll << 50));
+    const T zero = T(value_t<T>(0));
+    const T size = max_abs(v);
+    const mask_t<T> vanishes = size < T(std::numeric_limits<value_t<T>>::min());
+    const T factor = select(vanishes, zero, select(size < one, T(large), T(1 / large)));
+    const vec3<T> w = factor * v;
+    const T inverse_of_w = one / sqrt(select(vanishes, one, dot(w, w)));
+    result.unit = select<T>(usual, result.unit, inverse_of_w * w);
+    result.inverse_length = select(usual, result.inverse_length, inverse_of_w * factor);
+  }
+  return result;
 }
 
 } // namespace detail
