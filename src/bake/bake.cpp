@@ -38,10 +38,13 @@ class Bands {
         own_([this] { return Own(static_cast<std::size_t>(tile_side_)); }) {}
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
-  void make(int row, image::Image& band) {
+  void make(int row, image::Image& band, const stage::GoOn& go_on) {
     const raster::Tile first = composer_.grid().tile(0, row);
     stage::reshape(band, options_.width, first.height, 3);
-    composer_.compose_row(row, [&](const stage::ComposedTile& tile) { encode(tile, band); });
+    composer_.compose_row(row, [&](const stage::ComposedTile& tile) {
+      go_on();
+      encode(tile, band);
+    });
   }
   [[nodiscard]] Counts counts() const {
     Counts sum;
@@ -130,7 +133,8 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
   const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report, options.backend);
   Bands bands(stage, scene, options);
   stage::for_each_band(
-      bands.count(), report, [&](int row, image::Image& band) { bands.make(row, band); }, take);
+      bands.count(), report,
+      [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); }, take);
   Counts counts = bands.counts();
   counts.outside = triangles_outside(stage.surfaces(), stage.slot_of(0));
   if (counts.covered == 0)

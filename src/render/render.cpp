@@ -66,10 +66,13 @@ class Bands {
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
 
-  void make(int row, image::Image& band) {
+  void make(int row, image::Image& band, const stage::GoOn& go_on) {
     const int height = composer_.grid().tile(0, row).height / side_;
     stage::reshape(band, options_.width, height, 3);
-    composer_.compose_row(row, [&](const stage::ComposedTile& tile) { draw(tile, band); });
+    composer_.compose_row(row, [&](const stage::ComposedTile& tile) {
+      go_on();
+      draw(tile, band);
+    });
   }
 
   [[nodiscard]] Counts counts() const { return {covered_, degenerate_}; }
@@ -177,7 +180,8 @@ Counts render_bands(const scene::Scene& asked, const Options& options, const sta
   const auto projection = raster::Projection::camera(camera.screen_from_relative(width, height), camera.near);
   Bands bands(stage, projection, options, shading ? &*shading : nullptr);
   stage::for_each_band(
-      bands.count(), report, [&](int row, image::Image& band) { bands.make(row, band); }, take);
+      bands.count(), report,
+      [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); }, take);
   return bands.counts();
 }
 

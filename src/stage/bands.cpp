@@ -54,13 +54,21 @@ class Spares {
 
 } // namespace
 
-void for_each_band(int count, const Report& report, const std::function<void(int, image::Image&)>& make,
-                   const BandSink& take) {
+void for_each_band(int count, const Report& report, const BandMaker& make, const BandSink& take) {
   using Band = std::shared_ptr<image::Image>;
   Spares spares;
   std::atomic<bool> stop{false};
   int next = count;
-  int done = 0;
+  std::atomic<int> done{0};
+  std::mutex reporting;
+  const auto ask = [&] { // inside the lock: reports never go back
+    if (report.progress && !report.progress(static_cast<double>(done) / count)) stop = true;
+  };
+  // Whoever finds the callback busy leaves it to a later one.
+  const GoOn go_on = [&] {
+    if (const std::unique_lock<std::mutex> lock(reporting, std::try_to_lock); lock && !stop) ask();
+    if (stop) throw Cancelled();
+  };
   // One is taken while others are made. A band is made by several threads: few suffice.
   const std::size_t threads =
       std::min(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
@@ -76,14 +84,15 @@ void for_each_band(int count, const Report& report, const std::function<void(int
         return --next;
       }) & tbb::make_filter<int, Band>(tbb::filter_mode::parallel, [&](int i) {
         Band band = spares.get();
-        make(i, *band);
+        make(i, *band, go_on);
         return band;
       }) & tbb::make_filter<Band, void>(tbb::filter_mode::serial_in_order, [&](Band band) {
         if (stop) return;
         take(*band);
         spares.give(std::move(band));
         ++done;
-        if (report.progress && !report.progress(static_cast<double>(done) / count)) stop = true;
+        const std::lock_guard<std::mutex> lock(reporting);
+        ask();
       }));
   if (stop) throw Cancelled();
 }

@@ -17,13 +17,19 @@ void reshape(image::Image& image, int width, int height, int channels);
 /// Puts a picture together again. The picture must have its size already.
 [[nodiscard]] BandSink into(image::Image& picture);
 
+/// To be called now and then by whoever works long, from any thread: throws Cancelled when the progress
+/// callback asks to stop.
+using GoOn = std::function<void()>;
+
+/// Makes a band. The image to fill is an old band or empty.
+using BandMaker = std::function<void(int band, image::Image& image, const GoOn& go_on)>;
+
 /// Makes a picture's bands in parallel and hands them over in order: whoever takes them works while others
 /// are made. A few are under way at a time; memory is theirs.
 ///
 /// count      bands; 0 is the lowest
-/// make       makes a band: (band, image to fill); any thread. The image is an old band or empty
+/// make       makes a band; any thread
 /// Results do not depend on the number of threads. Throws Cancelled when the progress callback asks to stop.
-void for_each_band(int count, const Report& report, const std::function<void(int, image::Image&)>& make,
-                   const BandSink& take);
+void for_each_band(int count, const Report& report, const BandMaker& make, const BandSink& take);
 
 } // namespace surfgrad::stage

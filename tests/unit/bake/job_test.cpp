@@ -60,6 +60,19 @@ TEST(BakeJob, ReportsProgressUpToOneAndStopsWhenAsked) {
   EXPECT_THROW((void)bake(scene, {16, 40, Space::tangent}, report), Cancelled);
 }
 
+TEST(BakeJob, StopsBetweenTilesOfABand) {
+  const scene::Scene scene = two_layers();
+  int asked = 0;
+  int bands = 0;
+  Report report;
+  report.progress = [&](double) { return ++asked < 3; };
+  EXPECT_THROW((void)bake_bands(
+                   scene, {2048, 32, Space::tangent}, [&](const image::Image&) { ++bands; }, report),
+               Cancelled);
+  EXPECT_EQ(asked, 3); // of 64 tiles
+  EXPECT_EQ(bands, 0);
+}
+
 TEST(BakeJob, RefusesAMeshWithoutTextureCoordinatesOrWithNoneInTheUnitSquare) {
   scene::Scene scene = two_layers();
   scene.materials[0].layers.clear();

@@ -57,6 +57,19 @@ TEST(RenderJob, ReportsProgressUpToOneAndStopsWhenAsked) {
   EXPECT_THROW((void)render(scene, {16, 40, 1, Aov::normal}, report), Cancelled);
 }
 
+TEST(RenderJob, StopsBetweenTilesOfABand) {
+  const scene::Scene scene = bumpy();
+  int asked = 0;
+  int bands = 0;
+  Report report;
+  report.progress = [&](double) { return ++asked < 3; };
+  EXPECT_THROW((void)render_bands(
+                   scene, {2048, 32, 1, Aov::normal}, [&](const image::Image&) { ++bands; }, report),
+               Cancelled);
+  EXPECT_EQ(asked, 3); // of 64 tiles
+  EXPECT_EQ(bands, 0);
+}
+
 TEST(RenderJob, OfTheDemoHasNoDegenerateSample) {
   const Picture picture = render(scene::demo_scene(), {64, 64, 2, Aov::beauty});
   EXPECT_GT(picture.covered, 4000);
