@@ -178,7 +178,7 @@ gpu::Handle<VkPipeline> Drawing::make_pipeline(const Picture& picture, VkPipelin
   auto assembly = started<VkPipelineInputAssemblyStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
   assembly.topology = picture.topology;
-  const auto [width, height] = picture.size;
+  const auto [width, height] = picture.viewport.width > 0 ? picture.viewport : picture.size;
   const VkViewport whole{0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
   const VkRect2D scissor{{0, 0}, picture.size};
   auto view =

@@ -38,6 +38,7 @@ class Drawing {
   struct Picture {
     Stages stages{};
     VkExtent2D size{};
+    VkExtent2D viewport{}; ///< where larger than the picture, which is its upper left part; else the picture
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
     std::span<const float> vertices{}; ///< two vec3 a vertex, at locations 0 and 1; may be empty
     std::uint32_t vertex_count = 0;
