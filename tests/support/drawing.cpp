@@ -289,7 +289,6 @@ std::vector<std::vector<Pixel4>> Drawing::draw(const Picture& picture) {
     vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
   }
 
-  const auto [width, height] = picture.size;
   std::vector<Target> images;
   std::vector<VkImageView> views;
   for (std::uint32_t i = 0; i < picture.targets; ++i) {
@@ -300,11 +299,11 @@ std::vector<std::vector<Pixel4>> Drawing::draw(const Picture& picture) {
   frame_info.renderPass = pass.get();
   frame_info.attachmentCount = picture.targets;
   frame_info.pAttachments = views.data();
-  frame_info.width = width;
-  frame_info.height = height;
+  frame_info.width = picture.size.width;
+  frame_info.height = picture.size.height;
   frame_info.layers = 1;
   const auto frame = made<VkFramebuffer>(device, frame_info, vkCreateFramebuffer, vkDestroyFramebuffer);
-  const std::size_t pixels = std::size_t{width} * height;
+  const std::size_t pixels = std::size_t{picture.size.width} * picture.size.height;
   const std::size_t image = pixels * pixel_floats;
   Buffer vertex_buffer;
   if (!picture.vertices.empty())
@@ -331,9 +330,12 @@ std::vector<std::vector<Pixel4>> Drawing::draw(const Picture& picture) {
     vkCmdDraw(commands, picture.vertex_count, 1, 0, 0);
     vkCmdEndRenderPass(commands);
     for (std::uint32_t i = 0; i < picture.targets; ++i) {
-      const VkBufferImageCopy copy{
-          i * image * sizeof(float), 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {0, 0, 0},
-          {width, height, 1}};
+      const VkBufferImageCopy copy{i * image * sizeof(float),
+                                   0,
+                                   0,
+                                   {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                   {0, 0, 0},
+                                   {picture.size.width, picture.size.height, 1}};
       vkCmdCopyImageToBuffer(commands, images[i].image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                              result.buffer.get(), 1, &copy);
     }
