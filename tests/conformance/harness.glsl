@@ -1,4 +1,3 @@
-layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { float inputs[]; };
 layout(std430, binding = 1) writeonly buffer Results { float results[]; };
 layout(std430, binding = 2) readonly buffer Work { uint work[]; };
@@ -147,14 +146,26 @@ void put_moments(SurfgradSlopeMoments m) {
   put(3u, m.square.y);
   put(4u, m.product);
 }
+void put_hit(SurfgradParallaxHit hit) {
+  put2(hit.texture_coordinate);
+  put(2u, hit.height);
+  put(3u, hit.hit ? 1.0 : 0.0);
+}
 void put_march(vec2 st, vec2 dst, int steps, vec2 slope) {
   SurfgradParallaxMarch march = surfgrad_march_parallax_begin(st, dst, steps);
   while (surfgrad_march_parallax_asks(march)) {
     float height = 0.5 + dot(slope, surfgrad_march_parallax_at(march) - st);
     march = surfgrad_march_parallax_answer(march, height);
   }
-  SurfgradParallaxHit hit = surfgrad_march_parallax_end(march);
-  put2(hit.texture_coordinate);
-  put(2u, hit.height);
-  put(3u, hit.hit ? 1.0 : 0.0);
+  put_hit(surfgrad_march_parallax_end(march));
+}
+#define HEIGHT_OF_PLANE(at) (0.5 + dot(slope, (at) - st))
+void put_march_in_one(vec2 st, vec2 dst, int steps, vec2 slope) {
+  SurfgradParallaxHit hit;
+  SURFGRAD_MARCH_PARALLAX(hit, HEIGHT_OF_PLANE, st, dst, steps)
+  put_hit(hit);
+}
+vec3 gradient_of_hills(vec3 p, float step) { return SURFGRAD_GRADIENT_BY_DIFFERENCES(hills, p, step); }
+vec3 forward_gradient_of_hills(vec3 p, float step) {
+  return SURFGRAD_GRADIENT_BY_FORWARD_DIFFERENCES(hills, p, hills(p), step);
 }

@@ -156,3 +156,11 @@ fn put_march(st: vec2f, dst: vec2f, steps: i32, slope: vec2f) {
   put(2u, hit.height);
   put(3u, select(0.0, 1.0, hit.hit));
 }
+// WGSL has no macros: what those of the other languages stand for.
+fn put_march_in_one(st: vec2f, dst: vec2f, steps: i32, slope: vec2f) { put_march(st, dst, steps, slope); }
+fn gradient_of_hills(p: vec3f, step: f32) -> vec3f {
+  return surfgrad_gradient_by_differences(p, step, hills_beside(p, step), hills_beside(p, -step));
+}
+fn forward_gradient_of_hills(p: vec3f, step: f32) -> vec3f {
+  return surfgrad_gradient_by_forward_differences(p, step, hills_beside(p, step), hills(p));
+}

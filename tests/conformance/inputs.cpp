@@ -107,15 +107,17 @@ ShaderInputs<float> random_shader_inputs(Random& random) {
   return in;
 }
 
-namespace {
+std::span<float> values_of(F& in, const Field& f) {
+  return {reinterpret_cast<float*>(&in) + f.offset, f.count};
+}
 
-float* values(F& in, const Field& f) { return reinterpret_cast<float*>(&in) + f.offset; }
+namespace {
 
 /// Whole numbers and plain directions: results are exact or nearly so.
 F plain_inputs() {
   F in{};
   for (const Field& f : fields()) {
-    float* v = values(in, f);
+    const std::span<float> v = values_of(in, f);
     for (std::size_t i = 0; i < f.count; ++i) v[i] = 0.25f * static_cast<float>(i + 1);
     if (f.kind == "1") v[0] = 0.5f;
   }
@@ -211,7 +213,7 @@ std::vector<EdgeCase> edge_cases(const std::vector<const Field*>& used) {
     EdgeCase made{plain_inputs(), special.edge,
                   std::string(f.name) + "[" + std::to_string(first) + ".." + std::to_string(last) +
                       "] = " + special.name};
-    for (std::size_t i = first; i < last; ++i) values(made.in, f)[i] = special.value;
+    for (std::size_t i = first; i < last; ++i) values_of(made.in, f)[i] = special.value;
     cases.push_back(made);
   };
   for (const Field* f : used) {
@@ -226,7 +228,7 @@ std::vector<EdgeCase> edge_cases(const std::vector<const Field*>& used) {
     }
     if (f->name == "direction" || f->name == "rotation" || f->name == "weights") {
       EdgeCase made{plain_inputs(), Edge::ordinary, std::string(f->name) + " turned"};
-      float* v = values(made.in, *f);
+      const std::span<float> v = values_of(made.in, *f);
       for (std::size_t i = 0; i < f->count; ++i) v[i] = f->name == "weights" ? (i == 0 ? 1.0f : 0.0f) : -v[i];
       if (f->name == "rotation") made.in.core.rotation = {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
       cases.push_back(made);
@@ -236,7 +238,7 @@ std::vector<EdgeCase> edge_cases(const std::vector<const Field*>& used) {
         for (const float sign : {1.0f, -1.0f}) {
           EdgeCase made{plain_inputs(), Edge::ordinary,
                         std::string("direction along axis ") + (sign < 0 ? "-" : "") + "xyz"[axis]};
-          float* v = values(made.in, *f);
+          const std::span<float> v = values_of(made.in, *f);
           for (std::size_t i = 0; i < 3; ++i) v[i] = i == axis ? sign : 0.0f;
           cases.push_back(made);
         }
@@ -255,8 +257,9 @@ std::vector<EdgeCase> edge_cases(const std::vector<const Field*>& used) {
         EdgeCase made{plain_inputs(), Edge::ordinary,
                       std::string(g->name) + " = " + std::to_string(factor) + " " + std::string(f->name)};
         if (factor == 0)
-          for (std::size_t i = 0; i < f->count; ++i) values(made.in, *f)[i] = 0;
-        for (std::size_t i = 0; i < f->count; ++i) values(made.in, *g)[i] = factor * values(made.in, *f)[i];
+          for (std::size_t i = 0; i < f->count; ++i) values_of(made.in, *f)[i] = 0;
+        for (std::size_t i = 0; i < f->count; ++i)
+          values_of(made.in, *g)[i] = factor * values_of(made.in, *f)[i];
         cases.push_back(made);
       }
     }

@@ -5,6 +5,7 @@
 
 #include "support/core_inputs.hpp"
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,9 @@ struct Field {
 [[nodiscard]] const Field& field(std::string_view name);
 
 [[nodiscard]] ShaderInputs<float> random_shader_inputs(Random& random);
+
+/// The scalars of a field.
+[[nodiscard]] std::span<float> values_of(ShaderInputs<float>& in, const Field& field);
 
 /// Where a case of the edge table belongs.
 enum class Edge {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace surfgrad::test {
 
@@ -25,10 +26,26 @@ struct Work {
   std::uint32_t first_case; ///< its inputs begin at first_case * shader_input_count
 };
 
-/// A compute shader over these rows. Workgroup g runs the work g; its cases' results begin at
-/// (64 * g + lane) * row_results.
-[[nodiscard]] std::string shader_text(Language language, std::span<const Row* const> rows);
+/// A compute shader over these rows, each a function row_0, row_1, ... Workgroup g runs the work g; its
+/// cases' results begin at (64 * g + lane) * row_results.
+[[nodiscard]] std::string compute_text(Language language, std::span<const Row* const> rows);
 
-[[nodiscard]] gpu::Spirv compiled(Language language, const std::string& text);
+/// Pixels of what a fragment shader runs over.
+inline constexpr std::uint32_t fragment_width = 64;
+inline constexpr std::uint32_t fragment_height = 32;
+
+/// A fragment shader over all of these rows. A pixel's inputs begin at its number * shader_input_count; the
+/// results of row r at (fragment_width * fragment_height * r + number) * row_results.
+[[nodiscard]] std::string fragment_text(Language language, std::span<const Row* const> rows);
+
+[[nodiscard]] gpu::Spirv compiled(Language language, gpu::ShaderStage stage, const std::string& text);
+
+/// Several at once: a compiler that is a program of its own is started once.
+[[nodiscard]] std::vector<gpu::Spirv> compiled(Language language, gpu::ShaderStage stage,
+                                               std::span<const std::string> texts);
+
+/// The same with every function left whole: for HLSL, `compiled` puts them all into one.
+[[nodiscard]] gpu::Spirv compiled_function_by_function(Language language, gpu::ShaderStage stage,
+                                                       const std::string& text);
 
 } // namespace surfgrad::test

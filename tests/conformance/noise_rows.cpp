@@ -25,11 +25,9 @@ std::array<T, 4> flat(const Noise<T>& n) {
 }
 
 std::array<double, 4> value_and_gradient(double value, double gradient) {
-  return {vulkan_rounding * value, vulkan_rounding * gradient, vulkan_rounding * gradient,
-          vulkan_rounding * gradient};
+  return {value, gradient, gradient, gradient};
 }
 
-constexpr double anything = 1e30;
 constexpr std::uint32_t start = 987654321u;
 // Ties of distances and signs of noise this near are decided by rounding.
 constexpr double tie = 1e-5;
@@ -66,7 +64,7 @@ std::array<double, 4> worley_bound(vec3<double> p, WorleyKind kind, std::uint32_
   const bool second = kind == WorleyKind::f2_minus_f1;
   const bool decided =
       d[1] - d[0] > tie && (!second || d[2] - d[1] > tie) && (second ? d[1] : d[0]) < 1 - tie;
-  if (!decided && d[0] < 1 - tie) return {vulkan_rounding * 8, anything, anything, anything};
+  if (!decided && d[0] < 1 - tie) return {8, undecided, undecided, undecided};
   return value_and_gradient(second ? 8 : 4, 8 / d[0] + (second ? 8 / d[1] : 0));
 }
 
@@ -127,7 +125,7 @@ std::array<double, 4> sum_bound(const Basis& basis, vec3<double> p, double width
     for (int c = 1; c < 4; ++c) eps[c] += amplitude * frequency * (2 * of_basis[c] + slope * value);
     // The sign of an octave's value decides on that of its gradient.
     if (has_kinks && std::abs(n.value) < tie * 10)
-      for (int c = 1; c < 4; ++c) eps[c] = anything;
+      for (int c = 1; c < 4; ++c) eps[c] = undecided;
     frequency *= 2;
     amplitude *= 0.5;
   }
@@ -250,32 +248,40 @@ void add_elementary(std::vector<Row>& rows) {
         const auto r = sin_cos_turns(in.far.y);
         return std::array{1.5 * std::abs(r.sin), 1.5 * std::abs(r.cos)};
       }));
-  rows.push_back(make_row(
-      "gradient_by_differences",
-      "put3(surfgrad_gradient_by_differences($gradient, 0.015625, hills_beside($gradient, 0.015625), "
-      "hills_beside($gradient, -0.015625)))",
-      [](const auto& in) {
-        using T = std::decay_t<decltype(in.fade)>;
-        return test::flat(
-            gradient_by_differences([](vec3<T> p) { return hills(p); }, in.core.gradient, T(0.015625)));
-      },
-      [](const Exact& in) { // 3 eps of the terms of f on either side, over the step
-        const double size = 1 + max_abs(in.core.gradient);
-        return all_within<3>(vulkan_rounding * 3 * size * size / 0.015625);
-      }));
-  rows.push_back(make_row(
-      "gradient_by_forward_differences",
-      "put3(surfgrad_gradient_by_forward_differences($gradient, 0.015625, hills_beside($gradient, 0.015625), "
-      "hills($gradient)))",
-      [](const auto& in) {
-        using T = std::decay_t<decltype(in.fade)>;
-        return test::flat(gradient_by_forward_differences(
-            [](vec3<T> p) { return hills(p); }, in.core.gradient, hills(in.core.gradient), T(0.015625)));
-      },
-      [](const Exact& in) {
-        const double size = 1 + max_abs(in.core.gradient);
-        return all_within<3>(vulkan_rounding * 6 * size * size / 0.015625);
-      }));
+  const auto differences = [&](const char* name, const char* call) {
+    rows.push_back(make_row(
+        name, call,
+        [](const auto& in) {
+          using T = std::decay_t<decltype(in.fade)>;
+          return test::flat(
+              gradient_by_differences([](vec3<T> p) { return hills(p); }, in.core.gradient, T(0.015625)));
+        },
+        [](const Exact& in) { // 3 eps of the terms of f on either side, over the step
+          const double size = 1 + max_abs(in.core.gradient);
+          return all_within<3>(3 * size * size / 0.015625);
+        }));
+  };
+  differences("gradient_by_differences",
+              "put3(surfgrad_gradient_by_differences($gradient, 0.015625, hills_beside($gradient, 0.015625), "
+              "hills_beside($gradient, -0.015625)))");
+  differences("gradient_by_differences: macro", "put3(gradient_of_hills($gradient, 0.015625))");
+  const auto forward = [&](const char* name, const char* call) {
+    rows.push_back(make_row(
+        name, call,
+        [](const auto& in) {
+          using T = std::decay_t<decltype(in.fade)>;
+          return test::flat(gradient_by_forward_differences(
+              [](vec3<T> p) { return hills(p); }, in.core.gradient, hills(in.core.gradient), T(0.015625)));
+        },
+        [](const Exact& in) {
+          const double size = 1 + max_abs(in.core.gradient);
+          return all_within<3>(6 * size * size / 0.015625);
+        }));
+  };
+  forward("gradient_by_forward_differences",
+          "put3(surfgrad_gradient_by_forward_differences($gradient, 0.015625, hills_beside($gradient, "
+          "0.015625), hills($gradient)))");
+  forward("gradient_by_forward_differences: macro", "put3(forward_gradient_of_hills($gradient, 0.015625))");
 }
 
 void add_hashes(std::vector<Row>& rows) {

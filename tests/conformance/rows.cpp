@@ -18,6 +18,15 @@ std::vector<const Field*> Row::used_fields() const {
   return used;
 }
 
+std::vector<double> Row::device_bound(const ShaderInputs<double>& in) const {
+  std::vector<double> eps = bound(in);
+  for (double& each : eps) each = std::min(looseness.factor() * each, undecided);
+  if (!of_powers) return eps;
+  const std::vector<double> more = of_powers(in);
+  for (std::size_t i = 0; i < eps.size(); ++i) eps[i] += more[i];
+  return eps;
+}
+
 // log2: 3 units beyond [0.5, 2], 2^-21 (4 eps) absolute within.
 double vulkan_log2_error(double log2_of_a) { return 4 * std::max(1.0, std::abs(log2_of_a)); }
 
@@ -37,6 +46,7 @@ const std::vector<Row>& rows() {
     add_listing_rows(made);
     add_shape_rows(made);
     add_noise_rows(made);
+    loosen(made);
     return made;
   }();
   return all;

@@ -8,6 +8,9 @@
 #include <surfgrad/moments.hpp>
 #include <surfgrad/parallax_march.hpp>
 
+#include <algorithm>
+#include <utility>
+
 namespace surfgrad::test {
 namespace {
 
@@ -55,8 +58,6 @@ bool is_decided(const At& at) {
   return less.inside == more.inside && at(1).inside == less.inside;
 }
 
-constexpr double anything = 1e30;
-
 /// eps of p - origin, of its coordinates along the axes, and of these in units of a size.
 double relative_position(const Exact& in, double size) {
   return 4 * length(in.point - in.decal_origin) / size;
@@ -71,7 +72,7 @@ std::array<double, 16> projection_bounds(double st, double grad, double axis, do
   for (int i = 2; i < 8; ++i) eps[i] = grad;
   for (int i = 8; i < 14; ++i) eps[i] = axis;
   eps[14] = falloff;
-  for (double& each : eps) each = decided ? vulkan_rounding * each : anything;
+  for (double& each : eps) each = decided ? each : undecided;
   return eps;
 }
 
@@ -110,7 +111,7 @@ std::array<double, 11> sphere_bounds(const Exact& in, double half_length, const 
   std::array<double, 11> eps{};
   for (int i = 0; i < 6; ++i) eps[i] = 6 + relative_position(in, distance);
   eps[9] = falloff_bound(in, relative_position(in, in.radius));
-  for (double& each : eps) each = decided ? vulkan_rounding * each : anything;
+  for (double& each : eps) each = decided ? each : undecided;
   return eps;
 }
 
@@ -206,7 +207,7 @@ void add_decals(std::vector<Row>& rows) {
       [](const Exact& in) {
         const double along = std::abs(dot(in.core.direction, normalize_or_zero(in.core.perturbed)));
         const double g = length(from_perturbed_normal(in.core.direction, in.core.perturbed));
-        return all_within<3>(vulkan_rounding * 11 / along * std::max(1.0, g));
+        return all_within<3>(11 / along * std::max(1.0, g));
       }));
 }
 
@@ -220,20 +221,25 @@ ParallaxHit<T> march(const Shader<T>& in) {
 }
 
 void add_parallax(std::vector<Row>& rows) {
-  rows.push_back(make_row(
-      "march_parallax", "put_march($fraction, v2(0.4, -0.3), 20, $height_map)",
-      [](const auto& in) {
-        using T = std::decay_t<decltype(in.fade)>;
-        const ParallaxHit<T> hit = march(in);
-        return std::array{hit.texture_coordinate.x, hit.texture_coordinate.y, hit.height,
-                          hit.hit ? T(1) : T(0)};
-      },
-      [](const Exact& in) {
-        // Ray and plane approach at the rate 1 - slope . dst, which is at least 1/2 here.
-        const double rate = 1 - dot(in.height_map, vec2<double>{0.4, -0.3});
-        const double height = vulkan_rounding * 4 / rate;
-        return std::array{height + 2, height + 2, height, 0.0};
-      }));
+  const auto march_row = [&](const char* name, const char* call) {
+    rows.push_back(make_row(
+        name, call,
+        [](const auto& in) {
+          using T = std::decay_t<decltype(in.fade)>;
+          const ParallaxHit<T> hit = march(in);
+          return std::array{hit.texture_coordinate.x, hit.texture_coordinate.y, hit.height,
+                            hit.hit ? T(1) : T(0)};
+        },
+        [](const Exact& in) {
+          // Ray and plane approach at the rate 1 - slope . dst, which is at least 1/2 here.
+          const double rate = 1 - dot(in.height_map, vec2<double>{0.4, -0.3});
+          const double height = 4 / rate;
+          return std::array{height + 2, height + 2, height, 0.0};
+        }));
+  };
+  march_row("march_parallax", "put_march($fraction, v2(0.4, -0.3), 20, $height_map)");
+  march_row("march_parallax: in one statement",
+            "put_march_in_one($fraction, v2(0.4, -0.3), 20, $height_map)");
 }
 
 template <class T>
@@ -253,7 +259,7 @@ std::array<double, 15> hex_bounds(const Exact& in, double edge, double period, c
   for (int i = 9; i < 15; ++i) eps[i] = 2;
   const double margin = std::min({t.weight[0], t.weight[1], t.weight[2]});
   const bool decided = margin > 2 * weight * static_cast<double>(epsilon_v<float>);
-  for (double& each : eps) each = decided ? vulkan_rounding * each : anything;
+  for (double& each : eps) each = decided ? each : undecided;
   return eps;
 }
 
@@ -271,18 +277,31 @@ vec3<T> some_weights(const Shader<T>& in, T exponent, T contrast) {
   return hex_weights(some_tiles(in), deriv, exponent, contrast);
 }
 
-std::array<double, 3> hex_weight_bounds(const Exact& in, double exponent, double contrast) {
+/// The weights times what `of` says of a tile's weight before.
+template <class Of>
+std::vector<double> of_weights(const Exact& in, double exponent, double contrast, const Of& of) {
   const vec3<double> w = some_weights(in, exponent, contrast);
   const vec3<double> b = in.core.weights;
-  const double largest = max_abs(b);
-  const double sum_error = std::max({w.x * vulkan_pow_error(b.x / largest, exponent),
-                                     w.y * vulkan_pow_error(b.y / largest, exponent),
-                                     w.z * vulkan_pow_error(b.z / largest, exponent)});
-  const auto of = [&](double weight, double share) {
-    const double documented = 16 + 2 * exponent * (1 + std::abs(std::log2(std::max(share, 1e-30))));
-    return weight * (vulkan_rounding * documented + vulkan_pow_error(share / largest, exponent) + sum_error);
+  return {w.x * of(b.x), w.y * of(b.y), w.z * of(b.z)};
+}
+
+void add_hex_weights(std::vector<Row>& rows, Row row, double exponent, double contrast) {
+  // An exponent of 0 is the input.
+  const auto power = [exponent](const Exact& in) { return exponent > 0 ? exponent : in.exponent; };
+  row.bound = [=](const Exact& in) {
+    return of_weights(in, power(in), contrast, [&](double share) {
+      return 16 + 2 * power(in) * (1 + std::abs(std::log2(std::max(share, 1e-30))));
+    });
   };
-  return {of(w.x, b.x), of(w.y, b.y), of(w.z, b.z)};
+  // The weight's own power, and the largest error of the sum's.
+  row.of_powers = [=](const Exact& in) {
+    const double largest = max_abs(in.core.weights);
+    const auto of_power = [&](double share) { return vulkan_pow_error(share / largest, power(in)); };
+    const auto terms = of_weights(in, power(in), contrast, of_power);
+    const double of_sum = *std::max_element(terms.begin(), terms.end());
+    return of_weights(in, power(in), contrast, [&](double share) { return of_power(share) + of_sum; });
+  };
+  rows.push_back(std::move(row));
 }
 
 void add_hex_tiles(std::vector<Row>& rows) {
@@ -319,21 +338,25 @@ void add_hex_tiles(std::vector<Row>& rows) {
       },
       [](const Exact& in) { return all_within<2>(2 * max_abs(in.core.deriv)); }));
   const std::string tiles = "some_tiles($deriv, $deriv_y, $deriv_z, $weights, $xy_normal, $fraction)";
-  rows.push_back(make_row(
-      "hex_weights", "put_hex_weights(" + tiles + ", $deriv, $deriv_y, $deriv_z)",
-      [](const auto& in) {
-        using T = std::decay_t<decltype(in.fade)>;
-        return test::flat(some_weights(in, T(7), T(1.5)));
-      },
-      [](const Exact& in) { return hex_weight_bounds(in, 7, 1.5); }));
-  rows.push_back(make_row(
-      "hex_weights: exponent",
-      "put_hex_weights_of(" + tiles + ", $deriv, $deriv_y, $deriv_z, $exponent, 0.0)",
-      [](const auto& in) {
-        using T = std::decay_t<decltype(in.fade)>;
-        return test::flat(some_weights(in, in.exponent, T(0)));
-      },
-      [](const Exact& in) { return hex_weight_bounds(in, in.exponent, 0); }));
+  add_hex_weights(rows,
+                  make_row(
+                      "hex_weights", "put_hex_weights(" + tiles + ", $deriv, $deriv_y, $deriv_z)",
+                      [](const auto& in) {
+                        using T = std::decay_t<decltype(in.fade)>;
+                        return test::flat(some_weights(in, T(7), T(1.5)));
+                      },
+                      [](const Exact&) { return all_within<3>(0); }),
+                  7, 1.5);
+  add_hex_weights(rows,
+                  make_row(
+                      "hex_weights: exponent",
+                      "put_hex_weights_of(" + tiles + ", $deriv, $deriv_y, $deriv_z, $exponent, 0.0)",
+                      [](const auto& in) {
+                        using T = std::decay_t<decltype(in.fade)>;
+                        return test::flat(some_weights(in, in.exponent, T(0)));
+                      },
+                      [](const Exact&) { return all_within<3>(0); }),
+                  0, 0);
   rows.push_back(make_row(
       "hex_derivative", "put_hex_derivative(" + tiles + ", $weights, $deriv, $deriv_y, $deriv_z)",
       [](const auto& in) {
@@ -371,8 +394,7 @@ void add_moments(std::vector<Row>& rows) {
       [](const Exact& in) {
         const double r =
             roughness_from_moments(in.alpha, SlopeMoments<double>{in.height_map, in.core.fraction, 0});
-        return all_within<1>(vulkan_rounding * 2 *
-                             (in.alpha + (in.core.fraction.x + in.core.fraction.y) / r));
+        return all_within<1>(2 * (in.alpha + (in.core.fraction.x + in.core.fraction.y) / r));
       }));
 }
 

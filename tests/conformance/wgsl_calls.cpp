@@ -17,6 +17,7 @@ const Overloads& overloads() {
   static const Overloads all{
       {{"make_frame", 1}, {"make_frame_normal"}},
       {{"make_frame", 5}, {"make_frame_two_sided"}},
+      {{"make_frame_at", 4}, {"make_frame_at_two_sided"}},
       {{"rebase_frame", 4}, {"rebase_frame_moved"}},
       {{"triplanar_weights", 1}, {"triplanar_weights", ", 3.0"}},
       {{"triplanar_coordinates", 1}, {"triplanar_coordinates", ", SURFGRAD_LISTING_13"}},
@@ -33,8 +34,22 @@ const Overloads& overloads() {
       {{"fractal_sum", 3}, {"fractal_sum", ", SURFGRAD_BASIS_PERLIN"}},
       {{"turbulence", 3}, {"turbulence", ", SURFGRAD_BASIS_PERLIN"}},
       {{"ridged", 3}, {"ridged", ", SURFGRAD_BASIS_PERLIN"}},
+      {{"hex_weights", 2}, {"hex_weights", ", 7.0, 1.5"}},
       {{"hex_tiles", 1}, {"hex_tiles", ", 1.0, 0.5, v2(1.0, 1.0), hex_origin(0u, v2(0.0, 0.0))"}},
       {{"hex_tiles", 2}, {"hex_tiles", ", 0.5, v2(1.0, 1.0), hex_origin(0u, v2(0.0, 0.0))"}},
+  };
+  return all;
+}
+
+/// Overloads by type: their names.
+const std::map<std::string, std::string>& typed_names() {
+  static const std::map<std::string, std::string> all{
+      {"derivative_from_normal(vec2)", "derivative_from_normal_vec2"},
+      {"scale_bump(float, vec2)", "scale_bump_vec2"},
+      {"tangent_normal_matrix(mat3, vec3, vec3, vec3, vec3)", "tangent_normal_matrix_vec3"},
+      {"saturated(vec2)", "saturated_vec2"},
+      {"saturated(vec3)", "saturated_vec3"},
+      {"max_abs(vec2)", "max_abs_vec2"},
   };
   return all;
 }
@@ -74,6 +89,15 @@ Arguments arguments_from(const std::string& text, std::size_t open) {
 }
 
 } // namespace
+
+std::string wgsl_name(const std::string& signature) {
+  if (const auto found = typed_names().find(signature); found != typed_names().end()) return found->second;
+  const std::size_t open = signature.find('(');
+  const std::string name = signature.substr(0, open);
+  const auto found = overloads().find({name, arguments_from(signature, open).count});
+  if (found == overloads().end()) return name;
+  return found->second.rest[0] == 0 ? found->second.name : "";
+}
 
 std::string wgsl_call(const Row& row) {
   if (const auto found = by_type().find(row.name); found != by_type().end()) return found->second;

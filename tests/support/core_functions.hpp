@@ -54,6 +54,13 @@ using In = CoreInputs<double>;
   return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
+/// tangent_basis' bound.
+[[nodiscard]] inline double tangent_basis_bound(const In& in) {
+  const double x = std::abs(in.dst_dy.y);
+  const double y = std::abs(in.dst_dx.y);
+  const vec3<double> sum = in.dst_dy.y * in.frame.sigma_x - in.dst_dx.y * in.frame.sigma_y;
+  return 8 * (x * length(in.frame.sigma_x) + y * length(in.frame.sigma_y)) / length(sum);
+}
 /// from_parametric_derivative's bound.
 [[nodiscard]] inline double parametric_bound(vec3<double> n, vec3<double> du, vec3<double> dv,
                                              vec2<double> dh) {
@@ -210,12 +217,7 @@ void for_each_core_function(Visit&& visit) {
       });
   visit(
       "tangent_basis", 0, [](const auto& in) { return flat(tangent_basis(in.frame, in.dst_dx, in.dst_dy)); },
-      [](const In& in) {
-        const double x = std::abs(in.dst_dy.y);
-        const double y = std::abs(in.dst_dx.y);
-        const vec3<double> sum = in.dst_dy.y * in.frame.sigma_x - in.dst_dx.y * in.frame.sigma_y;
-        return all_within<6>(8 * (x * length(in.frame.sigma_x) + y * length(in.frame.sigma_y)) / length(sum));
-      });
+      [](const In& in) { return all_within<6>(tangent_basis_bound(in)); });
   visit(
       "from_tbn", 0, [](const auto& in) { return flat(from_tbn(in.deriv, in.tangent, in.bitangent)); },
       [](const In& in) {

@@ -1,10 +1,11 @@
 #pragma once
 
-/// What the author's own shader functions returned for 2048 random pixel quads: shared/vectors, whose
-/// README.md describes them. They live outside the project.
+/// What the author's own shader functions returned for random pixel quads: tests/vectors/README.md describes
+/// them. The project has 128 quads, and reads 2048 where the shared folder has them.
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <surfgrad/vec.hpp>
@@ -12,13 +13,24 @@
 
 namespace surfgrad::test {
 
-inline constexpr int quad_width = 512;
-inline constexpr int quad_height = 16;
 inline constexpr int quad_inputs = 44;
 inline constexpr int quad_outputs = 64;
 
-inline std::vector<float> read_floats(const char* name) {
-  std::ifstream file(std::string(SURFGRAD_SHARED_DIR "/vectors/") + name, std::ios::binary);
+/// Pixels of a set: two a quad along each axis.
+struct QuadGrid {
+  std::string folder;
+  int width, height;
+};
+inline const QuadGrid own_quads{SURFGRAD_SOURCE_DIR "/tests/vectors/", 256, 2};
+inline const QuadGrid all_quads{SURFGRAD_SHARED_DIR "/vectors/", 512, 16};
+
+/// All quads where they are, else the project's own.
+inline const QuadGrid& most_quads() {
+  return std::filesystem::exists(all_quads.folder) ? all_quads : own_quads;
+}
+
+inline std::vector<float> read_floats(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   std::vector<float> values(bytes.size() / sizeof(float));
   // An absent file is no floats, and memcpy takes no null pointer even for none.
@@ -44,13 +56,16 @@ struct Pixel {
 
 class Quads {
  public:
-  Quads()
-      : in_(read_floats("quads_in.f32")), out_(read_floats("quads_out.f32")),
-        matrix_(read_floats("world_from_screen.f32")) {}
+  explicit Quads(const QuadGrid& grid)
+      : width(grid.width), height(grid.height), in_(read_floats(grid.folder + "quads_in.f32")),
+        out_(read_floats(grid.folder + "quads_out.f32")),
+        matrix_(read_floats(grid.folder + "world_from_screen.f32")) {}
+  const int width, height; ///< in pixels
   [[nodiscard]] bool complete() const {
-    return in_.size() == std::size_t{quad_width} * quad_height * quad_inputs &&
-           out_.size() == std::size_t{quad_width} * quad_height * quad_outputs && matrix_.size() == 16;
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return in_.size() == pixels * quad_inputs && out_.size() == pixels * quad_outputs && matrix_.size() == 16;
   }
+  [[nodiscard]] const float* record(int x, int y) const { return &in_[offset(x, y) * quad_inputs]; }
   [[nodiscard]] const float* expected(int x, int y) const { return &out_[offset(x, y) * quad_outputs]; }
 
   template <class T>
@@ -62,14 +77,14 @@ class Quads {
   }
   template <class T>
   [[nodiscard]] Pixel<T> pixel(int x, int y) const {
-    const float* p = &in_[offset(x, y) * quad_inputs];
+    const float* p = record(x, y);
     const auto v3 = [&](int i) { return vec3<T>{T(p[i]), T(p[i + 1]), T(p[i + 2])}; };
     const auto v2 = [&](int i) { return vec2<T>{T(p[i]), T(p[i + 1])}; };
     // ddx_fine and ddy_fine: differences in float, on the pixel's own row and column of the quad.
-    const float* left = &in_[offset(x & ~1, y) * quad_inputs];
-    const float* right = &in_[offset(x | 1, y) * quad_inputs];
-    const float* upper = &in_[offset(x, y & ~1) * quad_inputs];
-    const float* lower = &in_[offset(x, y | 1) * quad_inputs];
+    const float* left = record(x & ~1, y);
+    const float* right = record(x | 1, y);
+    const float* upper = record(x, y & ~1);
+    const float* lower = record(x, y | 1);
     const auto dx = [&](int i) { return T(right[i] - left[i]); };
     const auto dy = [&](int i) { return T(lower[i] - upper[i]); };
     return {v3(0),
@@ -96,8 +111,8 @@ class Quads {
   }
 
  private:
-  static std::size_t offset(int x, int y) {
-    return static_cast<std::size_t>(y) * quad_width + static_cast<std::size_t>(x);
+  [[nodiscard]] std::size_t offset(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
   std::vector<float> in_, out_, matrix_;
 };

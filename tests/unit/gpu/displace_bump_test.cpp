@@ -6,10 +6,10 @@
 #include "displace_bump_vert.hpp"
 #include "show_vertex_frag.hpp"
 #include "show_vertex_geom.hpp"
+#include "support/drawing.hpp"
 #include "support/meshes.hpp"
 #include "support/software_driver.hpp"
 #include "support/worst.hpp"
-#include "vertex_row.hpp"
 #include "vertex_to_pixel_geom.hpp"
 
 #include <surfgrad/gradient.hpp>
@@ -59,11 +59,13 @@ std::vector<float> transforms() {
   return floats;
 }
 
+constexpr std::uint32_t points = 4096; // one a pixel: the widest target that every device has
+
 /// Points of a sphere, evenly spread along a spiral; no triangles.
 mesh::TriangleMesh sphere() {
   mesh::TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < VertexRow::pixels; ++i) {
-    const double y = 1 - (2.0 * i + 1) / VertexRow::pixels;
+  for (std::uint32_t i = 0; i < points; ++i) {
+    const double y = 1 - (2.0 * i + 1) / points;
     const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0)); // the golden angle
     const double r = std::sqrt(1 - y * y);
     mesh.positions.push_back({static_cast<float>(r * std::cos(angle)), static_cast<float>(y),
@@ -112,12 +114,17 @@ class DisplaceBump : public ::testing::Test {
     for (std::size_t i = 0; i < base.positions.size(); ++i)
       for (const vec3<float>& v : {base.positions[i], base.normals[i]})
         vertices.insert(vertices.end(), {v.x, v.y, v.z});
-    VertexRow row;
+    Drawing drawing;
     const auto uniforms = transforms();
-    shown = row.draw({displace_bump_vert, show_vertex_geom, show_vertex_frag}, vertices, uniforms, 3);
-    colours =
-        row.draw({displace_bump_vert, vertex_to_pixel_geom, displace_bump_frag}, vertices, uniforms, 1)[0];
-    for (const std::string& message : row.messages()) ADD_FAILURE() << message;
+    Drawing::Picture picture{.size = {points, 1}, .vertices = vertices, .vertex_count = points};
+    picture.bound = {{.contents = uniforms}};
+    picture.stages = {displace_bump_vert, show_vertex_geom, show_vertex_frag};
+    picture.targets = 3;
+    shown = drawing.draw(picture);
+    picture.stages = {displace_bump_vert, vertex_to_pixel_geom, displace_bump_frag};
+    picture.targets = 1;
+    colours = drawing.draw(picture)[0];
+    for (const std::string& message : drawing.messages()) ADD_FAILURE() << message;
   }
 
   static double3 position(std::size_t i) { return widen(base.positions[i]); }

@@ -14,7 +14,7 @@ layout(location = 1) out vec3 displaced_normal_there;
 layout(location = 2) out vec4 clip_position;
 #endif
 
-const float pixels = 4096.0; // of VertexRow
+const float pixels = 4096.0; // of the row
 
 void main() {
   gl_Position = vec4((2.0 * float(gl_PrimitiveIDIn) + 1.0) / pixels - 1.0, 0.0, 0.0, 1.0);

@@ -1,4 +1,4 @@
-#include "vertex_row.hpp"
+#include "support/drawing.hpp"
 
 #include "gpu/result.hpp"
 
@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace surfgrad::test {
 namespace {
@@ -38,7 +39,7 @@ gpu::Handle<VkShaderModule> load(VkDevice device, std::span<const std::uint32_t>
 
 } // namespace
 
-VertexRow::VertexRow() {
+Drawing::Drawing() {
   std::uint32_t count = 1;
   const VkResult listed = vkEnumeratePhysicalDevices(instance_.get(), &count, &physical_);
   if (listed != VK_INCOMPLETE) gpu::check(listed, "find a Vulkan device");
@@ -47,8 +48,11 @@ VertexRow::VertexRow() {
   auto queue = started<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
+  VkPhysicalDeviceFeatures available;
+  vkGetPhysicalDeviceFeatures(physical_, &available);
   VkPhysicalDeviceFeatures features{};
-  features.geometryShader = VK_TRUE;
+  features.geometryShader = available.geometryShader;
+  features.fragmentStoresAndAtomics = available.fragmentStoresAndAtomics;
   auto info = started<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
@@ -59,8 +63,8 @@ VertexRow::VertexRow() {
   vkGetDeviceQueue(device, 0, 0, &queue_);
 }
 
-gpu::Handle<VkDeviceMemory> VertexRow::allocate(const VkMemoryRequirements& needs,
-                                                VkMemoryPropertyFlags wanted) const {
+gpu::Handle<VkDeviceMemory> Drawing::allocate(const VkMemoryRequirements& needs,
+                                              VkMemoryPropertyFlags wanted) const {
   VkPhysicalDeviceMemoryProperties memory;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
   auto info = started<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
@@ -72,8 +76,8 @@ gpu::Handle<VkDeviceMemory> VertexRow::allocate(const VkMemoryRequirements& need
   throw std::runtime_error("the device has no memory of the kind needed");
 }
 
-VertexRow::Buffer VertexRow::make_buffer(VkBufferUsageFlags usage, std::size_t floats,
-                                         std::span<const float> contents) const {
+Drawing::Buffer Drawing::make_buffer(VkBufferUsageFlags usage, std::size_t floats,
+                                     std::span<const float> contents) const {
   auto info = started<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = floats * sizeof(float);
   info.usage = usage;
@@ -90,11 +94,11 @@ VertexRow::Buffer VertexRow::make_buffer(VkBufferUsageFlags usage, std::size_t f
   return result;
 }
 
-VertexRow::Target VertexRow::make_target() const {
+Drawing::Target Drawing::make_target(VkExtent2D size) const {
   auto info = started<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = target_format;
-  info.extent = {pixels, 1, 1};
+  info.extent = {size.width, size.height, 1};
   info.mipLevels = info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
@@ -113,7 +117,7 @@ VertexRow::Target VertexRow::make_target() const {
   return target;
 }
 
-gpu::Handle<VkRenderPass> VertexRow::make_pass(std::uint32_t targets) const {
+gpu::Handle<VkRenderPass> Drawing::make_pass(std::uint32_t targets) const {
   VkAttachmentDescription cleared{};
   cleared.format = target_format;
   cleared.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -145,33 +149,38 @@ gpu::Handle<VkRenderPass> VertexRow::make_pass(std::uint32_t targets) const {
   return made<VkRenderPass>(device_.get(), info, vkCreateRenderPass, vkDestroyRenderPass);
 }
 
-gpu::Handle<VkPipeline> VertexRow::make_pipeline(const Stages& stages, VkPipelineLayout layout,
-                                                 VkRenderPass pass, std::uint32_t targets) const {
-  const std::array modules{load(device_.get(), stages.vertex), load(device_.get(), stages.geometry),
-                           load(device_.get(), stages.fragment)};
-  constexpr VkShaderStageFlagBits kinds[]{VK_SHADER_STAGE_VERTEX_BIT, VK_SHADER_STAGE_GEOMETRY_BIT,
-                                          VK_SHADER_STAGE_FRAGMENT_BIT};
-  std::array<VkPipelineShaderStageCreateInfo, 3> parts{};
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    parts[i].stage = kinds[i];
-    parts[i].module = modules[i].get();
-    parts[i].pName = "main";
+gpu::Handle<VkPipeline> Drawing::make_pipeline(const Picture& picture, VkPipelineLayout layout,
+                                               VkRenderPass pass) const {
+  const std::pair<VkShaderStageFlagBits, std::span<const std::uint32_t>> stages[]{
+      {VK_SHADER_STAGE_VERTEX_BIT, picture.stages.vertex},
+      {VK_SHADER_STAGE_GEOMETRY_BIT, picture.stages.geometry},
+      {VK_SHADER_STAGE_FRAGMENT_BIT, picture.stages.fragment}};
+  std::vector<gpu::Handle<VkShaderModule>> modules;
+  std::vector<VkPipelineShaderStageCreateInfo> parts;
+  for (const auto& [stage, words] : stages) {
+    if (words.empty()) continue;
+    modules.push_back(load(device_.get(), words));
+    auto part = started<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+    part.stage = stage;
+    part.module = modules.back().get();
+    part.pName = "main";
+    parts.push_back(part);
   }
   const VkVertexInputBindingDescription vertex{0, 6 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
   const VkVertexInputAttributeDescription attributes[]{{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
                                                        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 3 * sizeof(float)}};
   auto input = started<VkPipelineVertexInputStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
-  input.vertexBindingDescriptionCount = 1;
+  input.vertexBindingDescriptionCount = picture.vertices.empty() ? 0 : 1;
   input.pVertexBindingDescriptions = &vertex;
-  input.vertexAttributeDescriptionCount = 2;
+  input.vertexAttributeDescriptionCount = picture.vertices.empty() ? 0 : 2;
   input.pVertexAttributeDescriptions = attributes;
   auto assembly = started<VkPipelineInputAssemblyStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
-  assembly.topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
-  const VkViewport whole{0, 0, pixels, 1, 0, 1};
-  const VkRect2D scissor{{0, 0}, {pixels, 1}};
+  assembly.topology = picture.topology;
+  const auto [width, height] = picture.viewport.width > 0 ? picture.viewport : picture.size;
+  const VkViewport whole{0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
+  const VkRect2D scissor{{0, 0}, picture.size};
   auto view =
       started<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
   view.viewportCount = view.scissorCount = 1;
@@ -185,10 +194,10 @@ gpu::Handle<VkPipeline> VertexRow::make_pipeline(const Stages& stages, VkPipelin
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineColorBlendAttachmentState all{};
   all.colorWriteMask = 15;
-  const std::vector<VkPipelineColorBlendAttachmentState> channels(targets, all);
+  const std::vector<VkPipelineColorBlendAttachmentState> channels(picture.targets, all);
   auto blend =
       started<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
-  blend.attachmentCount = targets;
+  blend.attachmentCount = picture.targets;
   blend.pAttachments = channels.data();
   auto info = started<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
   info.stageCount = static_cast<std::uint32_t>(parts.size());
@@ -207,7 +216,7 @@ gpu::Handle<VkPipeline> VertexRow::make_pipeline(const Stages& stages, VkPipelin
   return {device_.get(), pipeline, vkDestroyPipeline};
 }
 
-void VertexRow::run(const std::function<void(VkCommandBuffer)>& record) const {
+void Drawing::run(const std::function<void(VkCommandBuffer)>& record) const {
   const auto pool = made<VkCommandPool>(
       device_.get(), started<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO),
       vkCreateCommandPool, vkDestroyCommandPool);
@@ -227,16 +236,19 @@ void VertexRow::run(const std::function<void(VkCommandBuffer)>& record) const {
   gpu::check(vkQueueWaitIdle(queue_), "draw");
 }
 
-std::vector<std::vector<Pixel4>> VertexRow::draw(const Stages& stages, std::span<const float> vertices,
-                                                 std::span<const float> uniforms, std::uint32_t targets) {
+std::vector<std::vector<Pixel4>> Drawing::draw(const Picture& picture) {
   VkDevice const device = device_.get();
-  const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1,
-                                             VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
-                                             nullptr};
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  std::vector<VkDescriptorPoolSize> pool_sizes;
+  for (const Bound& each : picture.bound) {
+    bindings.push_back({static_cast<std::uint32_t>(bindings.size()), each.type, 1,
+                        VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, nullptr});
+    pool_sizes.push_back({each.type, 1});
+  }
   auto set_info =
       started<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-  set_info.bindingCount = 1;
-  set_info.pBindings = &binding;
+  set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  set_info.pBindings = bindings.data();
   const auto set_layout = made<VkDescriptorSetLayout>(device, set_info, vkCreateDescriptorSetLayout,
                                                       vkDestroyDescriptorSetLayout);
   VkDescriptorSetLayout const set_layouts[]{set_layout.get()};
@@ -245,15 +257,13 @@ std::vector<std::vector<Pixel4>> VertexRow::draw(const Stages& stages, std::span
   layout_info.pSetLayouts = set_layouts;
   const auto layout =
       made<VkPipelineLayout>(device, layout_info, vkCreatePipelineLayout, vkDestroyPipelineLayout);
-  const auto pass = make_pass(targets);
-  const auto pipeline = make_pipeline(stages, layout.get(), pass.get(), targets);
+  const auto pass = make_pass(picture.targets);
+  const auto pipeline = make_pipeline(picture, layout.get(), pass.get());
 
-  const Buffer vertex_buffer = make_buffer(VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, vertices.size(), vertices);
-  const Buffer uniform_buffer = make_buffer(VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, uniforms.size(), uniforms);
-  const VkDescriptorPoolSize one{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1};
   auto pool_info = started<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-  pool_info.maxSets = pool_info.poolSizeCount = 1;
-  pool_info.pPoolSizes = &one;
+  pool_info.maxSets = 1;
+  pool_info.poolSizeCount = static_cast<std::uint32_t>(pool_sizes.size());
+  pool_info.pPoolSizes = pool_sizes.data();
   const auto pool =
       made<VkDescriptorPool>(device, pool_info, vkCreateDescriptorPool, vkDestroyDescriptorPool);
   auto allocate = started<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
@@ -262,63 +272,86 @@ std::vector<std::vector<Pixel4>> VertexRow::draw(const Stages& stages, std::span
   allocate.pSetLayouts = set_layouts;
   VkDescriptorSet set = VK_NULL_HANDLE;
   gpu::check(vkAllocateDescriptorSets(device, &allocate, &set), "bind a buffer");
-  const VkDescriptorBufferInfo whole{uniform_buffer.buffer.get(), 0, VK_WHOLE_SIZE};
-  auto write = started<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-  write.dstSet = set;
-  write.descriptorCount = 1;
-  write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-  write.pBufferInfo = &whole;
-  vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
+  std::vector<Buffer> buffers;
+  for (std::uint32_t i = 0; i < picture.bound.size(); ++i) {
+    const Bound& each = picture.bound[i];
+    buffers.push_back(make_buffer(each.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                      ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
+                                      : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                  each.contents.size(), each.contents));
+    const VkDescriptorBufferInfo whole{buffers.back().buffer.get(), 0, VK_WHOLE_SIZE};
+    auto write = started<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = set;
+    write.dstBinding = i;
+    write.descriptorCount = 1;
+    write.descriptorType = each.type;
+    write.pBufferInfo = &whole;
+    vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
+  }
 
   std::vector<Target> images;
   std::vector<VkImageView> views;
-  for (std::uint32_t i = 0; i < targets; ++i) {
-    images.push_back(make_target());
+  for (std::uint32_t i = 0; i < picture.targets; ++i) {
+    images.push_back(make_target(picture.size));
     views.push_back(images.back().view.get());
   }
   auto frame_info = started<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
   frame_info.renderPass = pass.get();
-  frame_info.attachmentCount = targets;
+  frame_info.attachmentCount = picture.targets;
   frame_info.pAttachments = views.data();
-  frame_info.width = pixels;
-  frame_info.height = frame_info.layers = 1;
+  frame_info.width = picture.size.width;
+  frame_info.height = picture.size.height;
+  frame_info.layers = 1;
   const auto frame = made<VkFramebuffer>(device, frame_info, vkCreateFramebuffer, vkDestroyFramebuffer);
-  const std::size_t row = pixels * pixel_floats;
-  const Buffer result = make_buffer(VK_BUFFER_USAGE_TRANSFER_DST_BIT, targets * row);
+  const std::size_t pixels = std::size_t{picture.size.width} * picture.size.height;
+  const std::size_t image = pixels * pixel_floats;
+  Buffer vertex_buffer;
+  if (!picture.vertices.empty())
+    vertex_buffer = make_buffer(VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, picture.vertices.size(), picture.vertices);
+  Buffer result;
+  if (picture.targets > 0) result = make_buffer(VK_BUFFER_USAGE_TRANSFER_DST_BIT, picture.targets * image);
 
   run([&](VkCommandBuffer commands) {
-    const std::vector<VkClearValue> nothing(targets);
+    const std::vector<VkClearValue> nothing(picture.targets);
     auto begin = started<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
     begin.renderPass = pass.get();
     begin.framebuffer = frame.get();
-    begin.renderArea = {{0, 0}, {pixels, 1}};
-    begin.clearValueCount = targets;
+    begin.renderArea = {{0, 0}, picture.size};
+    begin.clearValueCount = picture.targets;
     begin.pClearValues = nothing.data();
     vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout.get(), 0, 1, &set, 0, nullptr);
-    VkBuffer const buffers[]{vertex_buffer.buffer.get()};
-    constexpr VkDeviceSize start = 0;
-    vkCmdBindVertexBuffers(commands, 0, 1, buffers, &start);
-    vkCmdDraw(commands, pixels, 1, 0, 0);
+    if (!picture.vertices.empty()) {
+      VkBuffer const vertices[]{vertex_buffer.buffer.get()};
+      constexpr VkDeviceSize start = 0;
+      vkCmdBindVertexBuffers(commands, 0, 1, vertices, &start);
+    }
+    vkCmdDraw(commands, picture.vertex_count, 1, 0, 0);
     vkCmdEndRenderPass(commands);
-    for (std::uint32_t i = 0; i < targets; ++i) {
-      const VkBufferImageCopy copy{
-          i * row * sizeof(float), 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {0, 0, 0}, {pixels, 1, 1}};
+    for (std::uint32_t i = 0; i < picture.targets; ++i) {
+      const VkBufferImageCopy copy{i * image * sizeof(float),
+                                   0,
+                                   0,
+                                   {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                   {0, 0, 0},
+                                   {picture.size.width, picture.size.height, 1}};
       vkCmdCopyImageToBuffer(commands, images[i].image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                              result.buffer.get(), 1, &copy);
     }
     auto barrier = started<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
-    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier,
-                         0, nullptr, 0, nullptr);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                         VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
   });
-  std::vector<std::vector<Pixel4>> rows(targets, std::vector<Pixel4>(pixels));
-  for (std::uint32_t i = 0; i < targets; ++i)
+  for (std::size_t i = 0; i < buffers.size(); ++i)
+    std::copy_n(buffers[i].mapped, picture.bound[i].results.size(), picture.bound[i].results.begin());
+  std::vector<std::vector<Pixel4>> drawn(picture.targets, std::vector<Pixel4>(pixels));
+  for (std::uint32_t i = 0; i < picture.targets; ++i)
     for (std::size_t p = 0; p < pixels; ++p)
-      std::copy_n(result.mapped + i * row + p * pixel_floats, pixel_floats, rows[i][p].begin());
-  return rows;
+      std::copy_n(result.mapped + i * image + p * pixel_floats, pixel_floats, drawn[i][p].begin());
+  return drawn;
 }
 
 } // namespace surfgrad::test

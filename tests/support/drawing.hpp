@@ -16,27 +16,38 @@ namespace surfgrad::test {
 
 using Pixel4 = std::array<float, 4>;
 
-/// Runs graphics stages over a row of pixels, a vertex a pixel, into float targets, with the validation
-/// layer.
-class VertexRow {
+/// Runs graphics stages into float targets and storage buffers, with the validation layer, on the device that
+/// Vulkan lists first.
+class Drawing {
  public:
-  static constexpr std::uint32_t pixels = 4096; ///< the widest target that every device has
-
-  VertexRow();
-  VertexRow(const VertexRow&) = delete;
-  VertexRow& operator=(const VertexRow&) = delete;
+  Drawing();
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
 
   struct Stages {
     std::span<const std::uint32_t> vertex;
-    std::span<const std::uint32_t> geometry; ///< puts vertex i, a point, on pixel i
+    std::span<const std::uint32_t> geometry; ///< may be empty
     std::span<const std::uint32_t> fragment;
   };
+  /// A buffer of the vertex and the fragment stage.
+  struct Bound {
+    VkDescriptorType type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    std::span<const float> contents{};
+    std::span<float> results{}; ///< what it holds afterwards is copied here
+  };
+  struct Picture {
+    Stages stages{};
+    VkExtent2D size{};
+    VkExtent2D viewport{}; ///< where larger than the picture, which is its upper left part; else the picture
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+    std::span<const float> vertices{}; ///< two vec3 a vertex, at locations 0 and 1; may be empty
+    std::uint32_t vertex_count = 0;
+    std::vector<Bound> bound{}; ///< bindings 0, 1, ... of set 0
+    std::uint32_t targets = 0;  ///< locations of the fragment stage
+  };
 
-  /// vertices  two vec3 a vertex, at locations 0 and 1; as many vertices as pixels
-  /// uniforms  binding 0 of the vertex and the fragment stage
-  /// returns   [target][pixel]: what the fragment stage wrote to its first `targets` locations
-  [[nodiscard]] std::vector<std::vector<Pixel4>> draw(const Stages& stages, std::span<const float> vertices,
-                                                      std::span<const float> uniforms, std::uint32_t targets);
+  /// returns  [target][pixel, row by row]: what the fragment stage wrote to its locations
+  [[nodiscard]] std::vector<std::vector<Pixel4>> draw(const Picture& picture);
 
   /// What the validation layer said so far.
   [[nodiscard]] std::vector<std::string> messages() const { return instance_.messages(); }
@@ -60,10 +71,10 @@ class VertexRow {
                                                      VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] Buffer make_buffer(VkBufferUsageFlags usage, std::size_t floats,
                                    std::span<const float> contents = {}) const;
-  [[nodiscard]] Target make_target() const;
+  [[nodiscard]] Target make_target(VkExtent2D size) const;
   [[nodiscard]] gpu::Handle<VkRenderPass> make_pass(std::uint32_t targets) const;
-  [[nodiscard]] gpu::Handle<VkPipeline> make_pipeline(const Stages& stages, VkPipelineLayout layout,
-                                                      VkRenderPass pass, std::uint32_t targets) const;
+  [[nodiscard]] gpu::Handle<VkPipeline> make_pipeline(const Picture& picture, VkPipelineLayout layout,
+                                                      VkRenderPass pass) const;
   void run(const std::function<void(VkCommandBuffer)>& record) const;
 
   gpu::Instance instance_{true};
