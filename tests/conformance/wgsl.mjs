@@ -1,7 +1,7 @@
 // WGSL for the tests.
 //
-//   node wgsl.mjs check FILE...     validates with Dawn (uniformity included) and with naga
-//   node wgsl.mjs spirv FILE OUT    writes what naga makes of it as SPIR-V
+//   node wgsl.mjs check FILE...                  validates with Dawn (uniformity included) and with naga
+//   node wgsl.mjs spirv FILE OUT [FILE OUT]...   writes what naga makes of each as SPIR-V
 //
 // Messages go to standard error; exit status 1 where a file is refused.
 
@@ -46,13 +46,16 @@ if (verb === "check" && files.length > 0) {
   const accepted = files.map((file) => inNaga(file, () => {}));
   accepted.push(await inDawn(files));
   process.exitCode = accepted.every((a) => a) ? 0 : 1;
-} else if (verb === "spirv" && files.length === 2) {
-  const written = inNaga(files[0], (module, info) => {
-    const { buffer, byteOffset, byteLength } = writeSpirv(module, info, { flags: { adjustCoordinateSpace: false } });
-    writeFileSync(files[1], new Uint8Array(buffer, byteOffset, byteLength));
-  });
-  process.exitCode = written ? 0 : 1;
+} else if (verb === "spirv" && files.length > 0 && files.length % 2 === 0) {
+  process.exitCode = 0;
+  for (let i = 0; i < files.length; i += 2) {
+    const written = inNaga(files[i], (module, info) => {
+      const { buffer, byteOffset, byteLength } = writeSpirv(module, info, { flags: { adjustCoordinateSpace: false } });
+      writeFileSync(files[i + 1], new Uint8Array(buffer, byteOffset, byteLength));
+    });
+    if (!written) process.exitCode = 1;
+  }
 } else {
-  console.error("usage: node wgsl.mjs check FILE... | node wgsl.mjs spirv FILE OUT");
+  console.error("usage: node wgsl.mjs check FILE... | node wgsl.mjs spirv FILE OUT [FILE OUT]...");
   process.exitCode = 2;
 }
