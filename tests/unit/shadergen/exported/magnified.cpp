@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace surfgrad::shadergen::test {
 namespace {
@@ -43,26 +44,16 @@ Fineness::Fineness(const std::vector<stack::Layer>& layers, const scene::Scene& 
         layer);
 }
 
-void Fineness::apply(Sample& sample) const {
-  raster::Fragment<double>& f = sample.fragment;
+double Fineness::times(const Sample& sample) const {
+  const raster::Fragment<double>& f = sample.fragment;
   // In the world, or in the object's space.
   const mat3<double>& inverse = sample.placement.inverse_linear;
-  double texels = 0;
+  double texels = 1;
   for (const vec3<double>& dp : {f.dp_dx, f.dp_dy, inverse * f.dp_dx, inverse * f.dp_dy})
     texels = std::max(texels, texels_by_position_ * length(dp));
-  for (const raster::UvFragment<double>& uv : coordinates_of(f))
+  for (const raster::UvFragment<double>& uv : std::span(f.uvs).first(static_cast<std::size_t>(f.slots)))
     texels = std::max(texels, texels_by_st_ * std::max(length(uv.dst_dx), length(uv.dst_dy)));
-  const double finer = std::exp2(std::max(std::ceil(std::log2(std::max(texels, 1e-30))), 0.0));
-  const double share = 1 / finer;
-  f.raster = finer * f.raster;
-  for (vec3<double>* v : {&f.dp_dx, &f.dp_dy, &f.dn_dx, &f.dn_dy}) *v = share * *v;
-  for (raster::UvFragment<double>& uv : coordinates_of(f))
-    for (vec2<double>* v : {&uv.dst_dx, &uv.dst_dy, &uv.footprint_dx, &uv.footprint_dy}) *v = share * *v;
-  if (!sample.placement.relative_from_screen) return;
-  for (vec4<double>* row :
-       {&sample.placement.relative_from_screen->x, &sample.placement.relative_from_screen->y,
-        &sample.placement.relative_from_screen->z, &sample.placement.relative_from_screen->w})
-    *row = {share * row->x, share * row->y, row->z, row->w};
+  return std::exp2(std::ceil(std::log2(texels)));
 }
 
 } // namespace surfgrad::shadergen::test

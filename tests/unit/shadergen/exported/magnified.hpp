@@ -4,14 +4,13 @@
 
 namespace surfgrad::shadergen::test {
 
-/// How fine pixels must be for the maps of a stack not to be minified: mip levels are the hardware's own.
+/// How many times as fine pixels must be for the maps of a stack not to be minified.
 class Fineness {
  public:
   Fineness(const std::vector<stack::Layer>& layers, const scene::Scene& scene);
 
-  /// Makes the fragment one of the same picture drawn with finer pixels, by a power of two: all that is said
-  /// of it per pixel shrinks, its place in the raster and in space stays.
-  void apply(Sample& sample) const;
+  /// A power of two.
+  [[nodiscard]] double times(const Sample& sample) const;
 
  private:
   double texels_by_st_ = 0;       ///< most texels of any map on a texture coordinate's unit

@@ -98,7 +98,22 @@ Samples random_samples(Random& random, int count) {
   return samples;
 }
 
-Samples samples_of(const scene::Scene& scene, int side) {
+Sample with_finer_pixels(const Sample& sample, double times) {
+  Sample finer = sample;
+  const double share = 1 / times;
+  Fragment<double>& f = finer.fragment;
+  f.raster = times * f.raster;
+  for (vec3<double>* v : {&f.dp_dx, &f.dp_dy, &f.dn_dx, &f.dn_dy}) *v = share * *v;
+  for (raster::UvFragment<double>& uv : coordinates_of(f))
+    for (vec2<double>* v : {&uv.dst_dx, &uv.dst_dy, &uv.footprint_dx, &uv.footprint_dy}) *v = share * *v;
+  if (mat4<double>* m =
+          finer.placement.relative_from_screen ? &*finer.placement.relative_from_screen : nullptr)
+    for (vec4<double>* row : {&m->x, &m->y, &m->z, &m->w})
+      *row = {share * row->x, share * row->y, row->z, row->w};
+  return finer;
+}
+
+Samples samples_of(const scene::Scene& scene, int side, int picture) {
   Samples samples;
   const std::vector<stack::Layer>& layers = scene.materials[0].layers;
   engine::collect_uv_slots(layers, samples.slots);
@@ -123,8 +138,9 @@ Samples samples_of(const scene::Scene& scene, int side) {
     sample.placement = engine::place(scene.objects[shown.id.surface].world_from_object, camera.eye);
     sample.placement.relative_from_screen = camera.relative_from_screen(side, side);
     if (scene.lights.sun) sample.placement.to_sun = normalize_or_zero(scene.lights.sun->direction);
-    fineness.apply(sample);
-    samples.all.push_back({rounded(sample.fragment), rounded(sample.placement)});
+    const double times = picture > 0 ? static_cast<double>(picture) / side : fineness.times(sample);
+    const Sample finer = with_finer_pixels(sample, times);
+    samples.all.push_back({rounded(finer.fragment), rounded(finer.placement)});
   }
   return samples;
 }

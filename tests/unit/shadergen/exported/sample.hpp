@@ -29,9 +29,16 @@ struct Samples {
 /// 100 texels a side is minified.
 [[nodiscard]] Samples random_samples(surfgrad::test::Random& random, int count);
 
-/// The fragments of a scene's first material, as its camera sees them in a picture this many pixels wide and
-/// high, but with finer pixels: so fine that no map is minified.
-[[nodiscard]] Samples samples_of(const scene::Scene& scene, int side);
+/// The fragments of a scene's first material, as its camera sees them, at the middles of this many columns
+/// and rows of a picture.
+///
+/// picture  how many pixels the picture is wide and high; 0: so many that no map is minified, here and there
+/// more
+[[nodiscard]] Samples samples_of(const scene::Scene& scene, int side, int picture);
+
+/// The fragment as one of the same picture drawn with pixels so many times as fine: all that is said of it
+/// per pixel shrinks, its place in the raster and in space stays.
+[[nodiscard]] Sample with_finer_pixels(const Sample& sample, double times);
 
 /// A member of the surface at a fragment; matrices column by column.
 [[nodiscard]] std::vector<double> values_of(const SurfaceMember& member, const Sample& sample,

@@ -3,9 +3,10 @@
 #include "gpu/result.hpp"
 #include "image/pyramid.hpp"
 
-#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <stdexcept>
+#include <vector>
 
 namespace surfgrad::shadergen::test {
 namespace {
@@ -20,7 +21,7 @@ image::Map codes_of(const image::Image& image, bool from_top) {
   return image::with_pyramid(rows, image.width, image.height, 3);
 }
 
-VkImageMemoryBarrier barrier_of(VkImage image, VkImageLayout from, VkImageLayout to) {
+VkImageMemoryBarrier barrier_of(VkImage image, std::uint32_t levels, VkImageLayout from, VkImageLayout to) {
   VkImageMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
   barrier.srcAccessMask = to == VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL ? 0 : VK_ACCESS_TRANSFER_WRITE_BIT;
@@ -30,15 +31,15 @@ VkImageMemoryBarrier barrier_of(VkImage image, VkImageLayout from, VkImageLayout
   barrier.newLayout = to;
   barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 6};
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, levels, 0, 6};
   return barrier;
 }
 
 /// Faces one after the other, each from its top row on: where cube maps begin in every API.
 std::vector<float> faces_of(const image::Image& strip) {
   const int side = strip.height;
-  if (strip.width != 6 * side || strip.channels < 3)
-    throw std::logic_error("this test takes cube maps as strips of six faces");
+  if (strip.width != 6 * side || strip.channels < 3 || (side & (side - 1)) != 0)
+    throw std::logic_error("this test takes cube maps as strips of six faces, a power of two wide");
   std::vector<float> texels;
   texels.reserve(static_cast<std::size_t>(24 * side * side));
   for (int face = 0; face < 6; ++face)
@@ -48,6 +49,19 @@ std::vector<float> faces_of(const image::Image& strip) {
         texels.insert(texels.end(), {texel[0], texel[1], texel[2], 0.0f});
       }
   return texels;
+}
+
+/// The next mip level: of six faces `side` texels wide the means of 2x2.
+std::vector<float> halved(const std::vector<float>& faces, std::size_t side) {
+  std::vector<float> means;
+  means.reserve(faces.size() / 4);
+  for (std::size_t y = 0; y < 6 * side; y += 2) // a face has an even number of rows
+    for (std::size_t x = 0; x < side; x += 2)
+      for (std::size_t c = 0; c < 4; ++c) {
+        const auto at = [&](std::size_t i, std::size_t j) { return faces[4 * ((y + j) * side + x + i) + c]; };
+        means.push_back(0.25f * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)));
+      }
+  return means;
 }
 
 gpu::Addressing addressing_of(stack::Wrap wrap) {
@@ -66,13 +80,14 @@ gpu::Addressing addressing_of(stack::Wrap wrap) {
 
 CubeTexture::CubeTexture(const gpu::Device& device, const image::Image& strip) {
   const auto side = static_cast<std::uint32_t>(strip.height);
+  const auto levels = static_cast<std::uint32_t>(std::bit_width(side));
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   info.extent = {side, side, 1};
-  info.mipLevels = 1;
+  info.mipLevels = levels;
   info.arrayLayers = 6;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -94,24 +109,35 @@ CubeTexture::CubeTexture(const gpu::Device& device, const image::Image& strip) {
   view_info.image = image;
   view_info.viewType = VK_IMAGE_VIEW_TYPE_CUBE;
   view_info.format = info.format;
-  view_info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 6};
+  view_info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, levels, 0, 6};
   VkImageView view = VK_NULL_HANDLE;
   gpu::check(vkCreateImageView(device.get(), &view_info, nullptr, &view), "make a cube map");
   view_ = {device.get(), view, vkDestroyImageView};
 
-  const std::vector<float> texels = faces_of(strip);
-  const gpu::Buffer staging(device, texels.size() * sizeof(float), gpu::Residence::upload);
-  std::memcpy(staging.mapped().data(), texels.data(), texels.size() * sizeof(float));
-  VkBufferImageCopy copy{};
-  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 6};
-  copy.imageExtent = info.extent;
+  std::vector<float> texels = faces_of(strip);
+  std::vector<float> all;
+  std::vector<VkBufferImageCopy> copies;
+  for (std::uint32_t level = 0; level < levels; ++level) {
+    const std::uint32_t size = side >> level;
+    if (level > 0) texels = halved(texels, 2 * size);
+    VkBufferImageCopy copy{};
+    copy.bufferOffset = all.size() * sizeof(float);
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 6};
+    copy.imageExtent = {size, size, 1};
+    copies.push_back(copy);
+    all.insert(all.end(), texels.begin(), texels.end());
+  }
+  const gpu::Buffer staging(device, all.size() * sizeof(float), gpu::Residence::upload);
+  std::memcpy(staging.mapped().data(), all.data(), all.size() * sizeof(float));
   device.run([&](VkCommandBuffer commands) {
-    const auto before = barrier_of(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const auto before =
+        barrier_of(image, levels, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
                          nullptr, 0, nullptr, 1, &before);
-    vkCmdCopyBufferToImage(commands, staging.get(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-    const auto after =
-        barrier_of(image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    vkCmdCopyBufferToImage(commands, staging.get(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, levels,
+                           copies.data());
+    const auto after = barrier_of(image, levels, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0,
                          nullptr, 0, nullptr, 1, &after);
   });

@@ -11,7 +11,7 @@
 
 namespace surfgrad::shadergen::test {
 
-/// Six square images as a cube map, level 0 alone.
+/// Six square images as a cube map with all mip levels.
 class CubeTexture {
  public:
   /// strip  +x -x +y -y +z -z from left to right

@@ -113,4 +113,22 @@ Comparison compared(const Truth& truth, const Samples& samples, const std::vecto
   return c;
 }
 
+MinifiedComparison compared_minified(const Truth& truth, const Samples& samples,
+                                     const std::vector<float>& results, double levels) {
+  MinifiedComparison c;
+  const double share = 1 / static_cast<double>(samples.all.size());
+  for (std::size_t i = 0; i < samples.all.size(); ++i) {
+    const float* const got = &results[4 * i];
+    const vec3<double> expected = truth.composed(samples.all[i]).normal;
+    c.angle += share * surfgrad::test::unit_angle({got[0], got[1], got[2]}, expected);
+    double turn = 0;
+    for (const double by : {levels, -levels}) {
+      const Sample other = with_finer_pixels(samples.all[i], std::exp2(by));
+      turn = std::max(turn, surfgrad::test::unit_angle(truth.composed(other).normal, expected));
+    }
+    c.turn += share * turn;
+  }
+  return c;
+}
+
 } // namespace surfgrad::shadergen::test

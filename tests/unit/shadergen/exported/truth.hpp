@@ -46,4 +46,14 @@ struct Comparison {
 [[nodiscard]] Comparison compared(const Truth& truth, const Samples& samples,
                                   const std::vector<float>& results, double bound);
 
+/// The same where maps are minified: means over the samples, in degrees.
+struct MinifiedComparison {
+  double angle = 0; ///< between both
+  double turn = 0;  ///< of the truth while mip levels are a little off, either way
+};
+
+/// levels  how far off
+[[nodiscard]] MinifiedComparison compared_minified(const Truth& truth, const Samples& samples,
+                                                   const std::vector<float>& results, double levels);
+
 } // namespace surfgrad::shadergen::test
