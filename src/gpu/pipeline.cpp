@@ -122,9 +122,9 @@ void BoundResources::bind(std::uint32_t binding, const Buffer& buffer, std::uint
   vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
 }
 
-void BoundResources::bind(std::uint32_t binding, const Texture& texture, VkSampler sampler,
+void BoundResources::bind(std::uint32_t binding, VkImageView texture, VkSampler sampler,
                           std::uint32_t element) {
-  const VkDescriptorImageInfo info{sampler, texture.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  const VkDescriptorImageInfo info{sampler, texture, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = sets_[0];

@@ -62,7 +62,10 @@ class BoundResources {
 
   void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t set = 0);
   /// A combined image and sampler of set 0.
-  void bind(std::uint32_t binding, const Texture& texture, VkSampler sampler, std::uint32_t element = 0);
+  void bind(std::uint32_t binding, const Texture& texture, VkSampler sampler, std::uint32_t element = 0) {
+    bind(binding, texture.view(), sampler, element);
+  }
+  void bind(std::uint32_t binding, VkImageView texture, VkSampler sampler, std::uint32_t element = 0);
 
   /// Commands: runs the pipeline over `groups` workgroups.
   ///

@@ -251,11 +251,13 @@ std::string MapUse::height_slope(const Place& place) const {
   if (generator_.exact())
     return fmt::format("stack_map_height_slope({}, {}, {}, {}, {})", exact_map(), place.st, place.footprint,
                        exact_wraps(), number_of(binding().filter));
-  // Central differences a texel of the level to each side: between texels too, those of the texels.
+  // Central differences a texel to each side: between texels too, those of the texels. On coarser levels half a
+  // texel to each side, of heights of the level below: the mean slope of a level's texels is the difference of
+  // heights at its ends.
   const std::string footprint = trilinear() ? ", vec2 dx, vec2 dy" : "";
-  const auto height = [&](const char* at) { return value({at, "dx, dy", ""}); };
+  const auto height = [&](const char* at) { return value({at, "0.5 * dx, 0.5 * dy", ""}); };
   const std::string reach =
-      trilinear() ? "exp2(max(surfgrad_texture_lod(dx, dy, size), 0.0)) / size" : "1.0 / size";
+      trilinear() ? "exp2(max(surfgrad_texture_lod(dx, dy, size) - 1.0, 0.0)) / size" : "1.0 / size";
   const std::string function =
       generator_.function(name_ + "_differences",
                           fmt::format("// Slopes of the heights at a place of the map, by the whole map.\n"

@@ -1,7 +1,7 @@
 // WGSL for the tests.
 //
-//   node wgsl.mjs check FILE...     validates with Dawn (uniformity included) and with naga
-//   node wgsl.mjs spirv FILE OUT... writes what naga makes of each as SPIR-V, functions by their names
+//   node wgsl.mjs check FILE...                  validates with Dawn (uniformity included) and with naga
+//   node wgsl.mjs spirv FILE OUT [FILE OUT]...   writes what naga makes of each as SPIR-V, functions by their names
 //
 // Messages go to standard error; exit status 1 where a file is refused.
 
@@ -47,15 +47,16 @@ if (verb === "check" && files.length > 0) {
   accepted.push(await inDawn(files));
   process.exitCode = accepted.every((a) => a) ? 0 : 1;
 } else if (verb === "spirv" && files.length > 0 && files.length % 2 === 0) {
-  let written = true;
-  for (let i = 0; i < files.length; i += 2)
-    written &&= inNaga(files[i], (module, info) => {
+  process.exitCode = 0;
+  for (let i = 0; i < files.length; i += 2) {
+    const written = inNaga(files[i], (module, info) => {
       const flags = { adjustCoordinateSpace: false, debug: true };
       const { buffer, byteOffset, byteLength } = writeSpirv(module, info, { flags });
       writeFileSync(files[i + 1], new Uint8Array(buffer, byteOffset, byteLength));
     });
-  process.exitCode = written ? 0 : 1;
+    if (!written) process.exitCode = 1;
+  }
 } else {
-  console.error("usage: node wgsl.mjs check FILE... | node wgsl.mjs spirv FILE OUT...");
+  console.error("usage: node wgsl.mjs check FILE... | node wgsl.mjs spirv FILE OUT [FILE OUT]...");
   process.exitCode = 2;
 }

@@ -167,13 +167,13 @@ float decals_layer2_mask_value(float2 st, float2 dst_dx, float2 dst_dy) {
 // Slopes of the heights at a place of the map, by the whole map.
 float2 decals_layer2_map_differences(float2 at, float2 dx, float2 dy) {
   float2 size = decals_texture_size(decals_layer2_map);
-  float2 reach = exp2(max(surfgrad_texture_lod(dx, dy, size), 0.0)) / size;
+  float2 reach = exp2(max(surfgrad_texture_lod(dx, dy, size) - 1.0, 0.0)) / size;
   float2 x = float2(reach.x, 0.0);
   float2 y = float2(0.0, reach.y);
-  float dh_ds = decals_layer2_map.SampleGrad(decals_sampler1, at + x, dx, dy).r
-      - decals_layer2_map.SampleGrad(decals_sampler1, at - x, dx, dy).r;
-  float dh_dt = decals_layer2_map.SampleGrad(decals_sampler1, at + y, dx, dy).r
-      - decals_layer2_map.SampleGrad(decals_sampler1, at - y, dx, dy).r;
+  float dh_ds = decals_layer2_map.SampleGrad(decals_sampler1, at + x, 0.5 * dx, 0.5 * dy).r
+      - decals_layer2_map.SampleGrad(decals_sampler1, at - x, 0.5 * dx, 0.5 * dy).r;
+  float dh_dt = decals_layer2_map.SampleGrad(decals_sampler1, at + y, 0.5 * dx, 0.5 * dy).r
+      - decals_layer2_map.SampleGrad(decals_sampler1, at - y, 0.5 * dx, 0.5 * dy).r;
   return float2(dh_ds, dh_dt) / (2.0 * reach);
 }
 
