@@ -17,13 +17,13 @@ namespace {
 
 using engine::TileWork;
 
-shadergen::Shader shader_of(const scene::Scene& scene, const scene::Material& material) {
+shadergen::Options options_of(const scene::Scene& scene, const scene::Material& material) {
   shadergen::Options options;
   options.access = shadergen::TextureAccess::exact;
   options.back_faces = material.back_faces;
   options.diagnostics = true;
   options.document = scene.source;
-  return shadergen::generate(material.layers, options);
+  return options;
 }
 
 /// Fragments of one thread on their way to the device and back.
@@ -49,15 +49,22 @@ constexpr std::size_t most_batch_bytes = std::size_t{64} << 20;
 class DeviceComposer : public stage::Composer {
  public:
   DeviceComposer(const Device& device, int tile_side, std::size_t most_fragments, const scene::Scene& scene,
-                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library, PipelineCache& cache)
+                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library, PipelineCache& cache,
+                 std::size_t most_buffer_bytes)
       : device_(device), slots_(slots) {
     std::size_t most_floats = StackPipeline::result_floats;
     std::size_t most_values = 1;
     for (const scene::Material& material : scene.materials) {
-      const shadergen::Shader shader = shader_of(scene, material);
+      shadergen::Options options = options_of(scene, material);
+      shadergen::Shader shader = shadergen::generate(material.layers, options);
       const StackMaps maps(shader, library);
-      pipelines_.push_back(
-          std::make_unique<StackPipeline>(device, shader, maps.maps(), cache, material.name));
+      const MapWords words(device, maps.maps(), material.name, most_buffer_bytes);
+      // Which buffers maps lie in is known once they are made, and which maps there are once the shader is.
+      if (words.buffer_count() > 1) {
+        options.blocks = words.blocks();
+        shader = shadergen::generate(material.layers, options);
+      }
+      pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, words, cache, material.name));
       most_floats = std::max(most_floats, pipelines_.back()->fragment_floats());
       most_values = std::max(most_values, pipelines_.back()->object_values({}).size());
     }
@@ -168,14 +175,16 @@ class DeviceComposer : public stage::Composer {
 
 } // namespace
 
-Backend::Backend(const Device& device, int most_tile_side, std::size_t most_fragments)
+Backend::Backend(const Device& device, int most_tile_side, std::size_t most_fragments,
+                 std::size_t most_buffer_bytes)
     : device_(device), tile_side_(std::max(1, most_tile_side)),
-      most_fragments_(std::max<std::size_t>(1, most_fragments)) {}
+      most_fragments_(std::max<std::size_t>(1, most_fragments)), most_buffer_bytes_(most_buffer_bytes) {}
 
 std::unique_ptr<stage::Composer> Backend::prepare(const scene::Scene& scene,
                                                   const std::vector<raster::UvSlot>& slots,
                                                   engine::MapLibrary& maps) const {
-  return std::make_unique<DeviceComposer>(device_, tile_side_, most_fragments_, scene, slots, maps, cache_);
+  return std::make_unique<DeviceComposer>(device_, tile_side_, most_fragments_, scene, slots, maps, cache_,
+                                          most_buffer_bytes_);
 }
 
 } // namespace surfgrad::gpu

@@ -60,6 +60,9 @@ struct Options {
   TextureOrigin origin = TextureOrigin::lower_left;
   /// StackResult has base_normal and degenerate, too: what engine::Composition has.
   bool diagnostics = false;
+  /// exact: in which buffer the words of each map lie, from 0 on; empty: all in one. A constant of the code,
+  /// so that no device chooses between buffers at every texel.
+  std::vector<int> blocks{};
   int march_steps = 64; ///< hardware: of the linear search of a parallax
   /// Absent: every file is as FileFacts says.
   std::function<FileFacts(const stack::FileName&)> facts_of{};
@@ -177,7 +180,8 @@ struct Shader {
 ///
 ///   binding 0  uniform block of the parameters (as Shader::parameters_binding says; absent if empty)
 ///   binding 1  the decals (absent if there are none)
-///   binding 2  NAME_words: texels, level tables and nodes of all maps, one after the other, in any order
+///   binding 2  NAME_words: texels, level tables and nodes of all maps, one after the other, in any order; an
+///              array of buffers where Options::blocks names several
 ///   binding 3  NAME_maps: one ExactMap a texture, two for a relief (from above, then from below), in the
 ///              order of Shader::textures
 ///
@@ -186,7 +190,8 @@ struct ExactLayout {
   static constexpr int parameters = 0, decals = 1, words = 2, maps = 3, first_free = 4;
 };
 
-/// A map in the buffers of `exact` access, words as image::Map has them; positions count words of NAME_words.
+/// A map in the buffers of `exact` access, words as image::Map has them; positions count words of
+/// its buffer.
 struct ExactMap {
   std::uint32_t texels = 0;      ///< where Map::words begins
   std::uint32_t levels = 0;      ///< where Map::level_table begins
