@@ -99,7 +99,7 @@ class MapBuffers : public VulkanTest {
     const render::Picture got = render::render(scene, options);
     EXPECT_GT(expected.covered, 300) << where;
     EXPECT_EQ(expected.degenerate, 0) << where;
-    EXPECT_EQ(got.image.texels, expected.image.texels) << where;
+    EXPECT_TRUE(got.image.texels == expected.image.texels) << where;
   }
 };
 
