@@ -119,7 +119,7 @@ TEST_F(MapBuffers, HoldEveryKindOfMap) {
       { "type": "decal", "shape": "sphere", "map": "cube", "radius": 0.7 } ] })",
                                                       "kinds.json")
                                        .layers;
-  compare(scene, "every kind", 4);
+  compare(scene, "every kind", 3);
 }
 
 image::Map grey_map(int side) {
