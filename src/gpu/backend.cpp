@@ -17,13 +17,13 @@ namespace {
 
 using engine::TileWork;
 
-shadergen::Options options_of(const scene::Scene& scene, const scene::Material& material) {
+shadergen::Shader shader_of(const scene::Scene& scene, const scene::Material& material) {
   shadergen::Options options;
   options.access = shadergen::TextureAccess::exact;
   options.back_faces = material.back_faces;
   options.diagnostics = true;
   options.document = scene.source;
-  return options;
+  return shadergen::generate(material.layers, options);
 }
 
 /// Fragments of one thread on their way to the device and back.
@@ -55,15 +55,9 @@ class DeviceComposer : public stage::Composer {
     std::size_t most_floats = StackPipeline::result_floats;
     std::size_t most_values = 1;
     for (const scene::Material& material : scene.materials) {
-      shadergen::Options options = options_of(scene, material);
-      shadergen::Shader shader = shadergen::generate(material.layers, options);
+      const shadergen::Shader shader = shader_of(scene, material);
       const StackMaps maps(shader, library);
       const MapWords words(device, maps.maps(), material.name, most_buffer_bytes);
-      // Which buffers maps lie in is known once they are made, and which maps there are once the shader is.
-      if (words.buffer_count() > 1) {
-        options.blocks = words.blocks();
-        shader = shadergen::generate(material.layers, options);
-      }
       pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, words, cache, material.name));
       most_floats = std::max(most_floats, pipelines_.back()->fragment_floats());
       most_values = std::max(most_values, pipelines_.back()->object_values({}).size());

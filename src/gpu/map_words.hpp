@@ -43,7 +43,7 @@ class MapWords {
   MapWords(const Device& device, const std::vector<StackMap>& maps, const std::string& material,
            std::size_t most_bytes = SIZE_MAX);
 
-  /// For shadergen::Options::blocks.
+  /// For shadergen::exact_words.
   [[nodiscard]] const std::vector<int>& blocks() const { return blocks_; }
   [[nodiscard]] int buffer_count() const { return static_cast<int>(pieces_.size()); }
   /// One a StackMap.

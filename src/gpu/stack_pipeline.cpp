@@ -78,7 +78,7 @@ std::string reading(const std::string& type, const char* function, std::size_t f
 }
 
 /// The shader around the generated function: a fragment an invocation.
-std::string text_of(const shadergen::Shader& shader) {
+std::string text_of(const shadergen::Shader& shader, const MapWords& maps) {
   std::string fills;
   std::size_t fragment = 0;
   std::size_t object = 0;
@@ -89,7 +89,7 @@ std::string text_of(const shadergen::Shader& shader) {
     first += floats_in(m.type);
   }
   const std::string sunlight = shader.has_sunlight ? "r.sunlight" : "1.0";
-  return "#version 450\n" + shader.source +
+  return "#version 450\n" + shadergen::exact_words(shader, maps.blocks()) + shader.source +
          fmt::format(R"(
 layout(local_size_x = {lanes}) in;
 layout(std430, set = 1, binding = 0) readonly buffer FragmentBlock {{ float fragment_values[]; }};
@@ -207,7 +207,7 @@ StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shad
     }
   }
   constexpr std::uint32_t constant_bytes = 2 * sizeof(std::uint32_t);
-  const std::string text = text_of(shader);
+  const std::string text = text_of(shader, maps);
   pipeline_ = cache.pipeline(text, [&] {
     return std::make_shared<const ComputePipeline>(device, compile({.text = text, .name = shader.name}),
                                                    bindings, constant_bytes);

@@ -22,7 +22,7 @@ struct StackAttribute {
 /// compose fragments.
 class StackPipeline {
  public:
-  /// maps      of the shader, which was generated for their blocks
+  /// maps      of the shader
   /// cache     of pipelines: stacks that differ in numbers and maps alone share theirs
   /// material  its name, for messages
   /// throws    MachineError where it exceeds the device's limits

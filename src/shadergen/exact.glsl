@@ -1,6 +1,6 @@
 // The engine's sampler (src/image) for `exact` access, in GLSL 450: the same texels, the same filters, in the same
-// order. Only functions that are called become part of the code; NAME_maps, NAME_block_of(map) and
-// NAME_word(block, at) are declared before.
+// order. Only functions that are called become part of the code; NAME_maps is declared before, and the
+// functions of exact_words: NAME_block_of(map) and NAME_word(block, at).
 
 struct StackMap {
   int block; // of its words
