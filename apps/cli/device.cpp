@@ -17,6 +17,9 @@ namespace {
 
 constexpr const char* processor = "cpu";
 constexpr std::string_view vulkan = "vulkan";
+/// A tile of this side has about as many pixels as the largest devices compute at a time, and takes some 90
+/// MiB of each thread's memory; it grows with the square.
+constexpr int most_tile_side = 512;
 
 /// The number behind "vulkan:", 0 for "vulkan" alone; -1 for anything else.
 int number_of(std::string_view device) {
@@ -50,8 +53,9 @@ void add_device_options(CLI::App& verb, DeviceOptions& options) {
           ->type_name("NAME")
           ->option_text("NAME");
   verb.add_option("--max-tile", options.max_tile,
-                  "most pixels along a side of what a device is given at a time")
-      ->check(CLI::Range(1, 4096).description(""))
+                  fmt::format("most pixels along a side of what a device is given at a time, 1 to {}",
+                              most_tile_side))
+      ->check(CLI::Range(1, most_tile_side).description(""))
       ->needs(device)
       ->type_name("N")
       ->option_text("N");

@@ -49,15 +49,16 @@ constexpr std::size_t most_batch_bytes = std::size_t{64} << 20;
 class DeviceComposer : public stage::Composer {
  public:
   DeviceComposer(const Device& device, int tile_side, std::size_t most_fragments, const scene::Scene& scene,
-                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library, PipelineCache& cache)
+                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library, PipelineCache& cache,
+                 std::size_t most_buffer_bytes)
       : device_(device), slots_(slots) {
     std::size_t most_floats = StackPipeline::result_floats;
     std::size_t most_values = 1;
     for (const scene::Material& material : scene.materials) {
       const shadergen::Shader shader = shader_of(scene, material);
       const StackMaps maps(shader, library);
-      pipelines_.push_back(
-          std::make_unique<StackPipeline>(device, shader, maps.maps(), cache, material.name));
+      const MapWords words(device, maps.maps(), material.name, most_buffer_bytes);
+      pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, words, cache, material.name));
       most_floats = std::max(most_floats, pipelines_.back()->fragment_floats());
       most_values = std::max(most_values, pipelines_.back()->object_values({}).size());
     }
@@ -168,14 +169,16 @@ class DeviceComposer : public stage::Composer {
 
 } // namespace
 
-Backend::Backend(const Device& device, int most_tile_side, std::size_t most_fragments)
+Backend::Backend(const Device& device, int most_tile_side, std::size_t most_fragments,
+                 std::size_t most_buffer_bytes)
     : device_(device), tile_side_(std::max(1, most_tile_side)),
-      most_fragments_(std::max<std::size_t>(1, most_fragments)) {}
+      most_fragments_(std::max<std::size_t>(1, most_fragments)), most_buffer_bytes_(most_buffer_bytes) {}
 
 std::unique_ptr<stage::Composer> Backend::prepare(const scene::Scene& scene,
                                                   const std::vector<raster::UvSlot>& slots,
                                                   engine::MapLibrary& maps) const {
-  return std::make_unique<DeviceComposer>(device_, tile_side_, most_fragments_, scene, slots, maps, cache_);
+  return std::make_unique<DeviceComposer>(device_, tile_side_, most_fragments_, scene, slots, maps, cache_,
+                                          most_buffer_bytes_);
 }
 
 } // namespace surfgrad::gpu

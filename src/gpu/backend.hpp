@@ -17,9 +17,11 @@ class Backend : public stage::Backend {
   static constexpr int usual_tile_side = 128;
 
   /// most_tile_side  larger tiles are not asked for
-  /// most_fragments  of a tile that are on the device at a time, if its limits allow as many: for tests
+  /// For tests, if the device's limits allow as many:
+  /// most_fragments     of a tile that are on the device at a time
+  /// most_buffer_bytes  of a buffer with maps
   explicit Backend(const Device& device, int most_tile_side = usual_tile_side,
-                   std::size_t most_fragments = SIZE_MAX);
+                   std::size_t most_fragments = SIZE_MAX, std::size_t most_buffer_bytes = SIZE_MAX);
 
   [[nodiscard]] std::unique_ptr<stage::Composer> prepare(const scene::Scene& scene,
                                                          const std::vector<raster::UvSlot>& slots,
@@ -30,6 +32,7 @@ class Backend : public stage::Backend {
   const Device& device_;
   int tile_side_;
   std::size_t most_fragments_;
+  std::size_t most_buffer_bytes_;
   mutable PipelineCache cache_{};
 };
 

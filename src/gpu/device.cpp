@@ -83,6 +83,10 @@ Candidate described(VkPhysicalDevice physical) {
   else
     candidate.info.lacks = "a queue that computes";
   if (candidate.info.lacks.empty()) candidate.info.lacks = lacks(properties.limits);
+  VkPhysicalDeviceFeatures features{};
+  vkGetPhysicalDeviceFeatures(physical, &features);
+  if (candidate.info.lacks.empty() && features.robustBufferAccess == VK_FALSE)
+    candidate.info.lacks = "the feature robustBufferAccess";
   return candidate;
 }
 
@@ -153,7 +157,7 @@ Device::Device(const DeviceOptions& options) : instance_(options.validate) {
   queue.queueFamilyIndex = chosen.queue_family;
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
-  // A shader's fault must not read another program's memory; every device has this feature.
+  // A shader's fault must not read another program's memory.
   VkPhysicalDeviceFeatures features{};
   features.robustBufferAccess = VK_TRUE;
   VkDeviceCreateInfo info{};

@@ -110,12 +110,14 @@ VkDescriptorType BoundResources::type_of(std::uint32_t binding, std::uint32_t se
   return found->type;
 }
 
-void BoundResources::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t set) {
+void BoundResources::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t set,
+                          std::uint32_t element) {
   const VkDescriptorBufferInfo info{buffer.get(), 0, VK_WHOLE_SIZE};
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = sets_[set];
   write.dstBinding = binding;
+  write.dstArrayElement = element;
   write.descriptorCount = 1;
   write.descriptorType = type_of(binding, set);
   write.pBufferInfo = &info;

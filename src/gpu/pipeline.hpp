@@ -60,7 +60,7 @@ class BoundResources {
  public:
   BoundResources(const Device& device, const ComputePipeline& pipeline);
 
-  void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t set = 0);
+  void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t set = 0, std::uint32_t element = 0);
   /// A combined image and sampler of set 0.
   void bind(std::uint32_t binding, const Texture& texture, VkSampler sampler, std::uint32_t element = 0) {
     bind(binding, texture.view(), sampler, element);

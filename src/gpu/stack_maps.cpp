@@ -38,15 +38,16 @@ std::shared_ptr<const image::Map> map_of(const TextureBinding& t, engine::MapLib
 
 StackMaps::StackMaps(const shadergen::Shader& shader, engine::MapLibrary& library) {
   for (const TextureBinding& t : shader.textures) {
+    const std::string file = t.files.front().path.string();
     if (t.kind == MapKind::relief) {
       const auto field = library.relief(t.files.front(), t.channel);
-      maps_.push_back({&field->from_above.map, &field->from_above});
-      maps_.push_back({&field->from_below.map, &field->from_below});
+      maps_.push_back({&field->from_above.map, &field->from_above, file});
+      maps_.push_back({&field->from_below.map, &field->from_below, file});
       owners_.push_back(field);
       continue;
     }
     const auto map = map_of(t, library);
-    maps_.push_back({map.get(), nullptr});
+    maps_.push_back({map.get(), nullptr, file});
     owners_.push_back(map);
   }
 }

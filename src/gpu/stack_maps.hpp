@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/map_library.hpp"
-#include "gpu/stack_pipeline.hpp"
+#include "gpu/map_words.hpp"
 #include "shadergen/shadergen.hpp"
 
 #include <memory>

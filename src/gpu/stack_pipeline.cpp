@@ -78,7 +78,7 @@ std::string reading(const std::string& type, const char* function, std::size_t f
 }
 
 /// The shader around the generated function: a fragment an invocation.
-std::string text_of(const shadergen::Shader& shader) {
+std::string text_of(const shadergen::Shader& shader, const MapWords& maps) {
   std::string fills;
   std::size_t fragment = 0;
   std::size_t object = 0;
@@ -89,7 +89,7 @@ std::string text_of(const shadergen::Shader& shader) {
     first += floats_in(m.type);
   }
   const std::string sunlight = shader.has_sunlight ? "r.sunlight" : "1.0";
-  return "#version 450\n" + shader.source +
+  return "#version 450\n" + shadergen::exact_words(shader, maps.blocks()) + shader.source +
          fmt::format(R"(
 layout(local_size_x = {lanes}) in;
 layout(std430, set = 1, binding = 0) readonly buffer FragmentBlock {{ float fragment_values[]; }};
@@ -119,44 +119,19 @@ void main() {{
                      fmt::arg("name", shader.name), fmt::arg("sunlight", sunlight));
 }
 
-/// All maps' words, one after the other, and what says where.
-struct MapWords {
-  std::vector<std::uint32_t> words{};
-  std::vector<shadergen::ExactMap> maps{};
-};
-
-std::uint32_t append(std::vector<std::uint32_t>& words, std::span<const std::uint32_t> some) {
-  const auto at = static_cast<std::uint32_t>(words.size());
-  words.insert(words.end(), some.begin(), some.end());
-  return at;
-}
-
-MapWords words_of(const std::vector<StackMap>& maps) {
-  MapWords result;
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    // Layers share maps.
-    const auto same = std::find_if(maps.begin(), maps.begin() + static_cast<std::ptrdiff_t>(i),
-                                   [&](const StackMap& m) { return m.map == maps[i].map; });
-    if (same != maps.begin() + static_cast<std::ptrdiff_t>(i)) {
-      result.maps.push_back(result.maps[static_cast<std::size_t>(same - maps.begin())]);
-      continue;
-    }
-    const image::Map& map = *maps[i].map;
-    shadergen::ExactMap exact;
-    exact.texels = append(result.words, map.words);
-    exact.levels = append(result.words, map.level_table);
-    exact.level_count = static_cast<std::uint32_t>(map.level_count);
-    exact.format = static_cast<std::uint32_t>(map.format) +
-                   256u * static_cast<std::uint32_t>(map.components) + (map.encoded ? 65536u : 0u);
-    exact.scale = static_cast<float>(map.scale);
-    if (const image::HeightField* field = maps[i].field; field != nullptr) {
-      exact.nodes = append(result.words, field->maxima);
-      exact.rows = append(result.words, field->node_table);
-      exact.row_words = static_cast<std::uint32_t>(field->row_words);
-    }
-    result.maps.push_back(exact);
-  }
-  return result;
+/// The first limit that is too low for so many storage buffers, and its number; empty if none is.
+std::string lacks_for(const VkPhysicalDeviceLimits& limits, std::uint32_t storage_buffers) {
+  const struct {
+    const char* name;
+    std::uint32_t has, needs;
+  } rows[] = {
+      {"maxPerStageDescriptorStorageBuffers", limits.maxPerStageDescriptorStorageBuffers, storage_buffers},
+      {"maxDescriptorSetStorageBuffers", limits.maxDescriptorSetStorageBuffers, storage_buffers},
+      {"maxPerStageResources", limits.maxPerStageResources, storage_buffers + 1}, // and the parameters
+  };
+  for (const auto& row : rows)
+    if (row.has < row.needs) return fmt::format("{} is {}", row.name, row.has);
+  return {};
 }
 
 void append(std::vector<float>& values, vec3<double> v) {
@@ -182,11 +157,9 @@ void append(std::vector<float>& values, const mat4<double>& m) {
 
 } // namespace
 
-StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shader,
-                             const std::vector<StackMap>& maps, PipelineCache& cache,
-                             const std::string& material, std::uint32_t most_bytes)
+StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shader, const MapWords& maps,
+                             PipelineCache& cache, const std::string& material)
     : device_(device), has_sunlight_(shader.has_sunlight) {
-  const std::uint32_t most_storage = std::min(device.limits().maxStorageBufferRange, most_bytes);
   for (const SurfaceMember& m : shader.surface) {
     if (m.of_object) {
       object_members_.push_back(m);
@@ -195,35 +168,46 @@ StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shad
     attributes_.push_back({attribute_of(m.role), m.uv});
     fragment_floats_ += floats_in(m.type);
   }
-  std::vector<Binding> bindings{{fragments_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1},
-                                {results_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1},
-                                {object_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, 1}};
+  constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  std::vector<Binding> bindings{
+      {fragments_binding, storage, 1, 1}, {results_binding, storage, 1, 1}, {object_binding, storage, 1, 1}};
+  const auto refuse = [&](const std::string& why, const char* use) {
+    throw MachineError(
+        fmt::format("cannot compose the material \"{}\" on \"{}\": {}; use {}, or --device cpu", material,
+                    device.info().name, why, use));
+  };
   const auto add = [&](int binding, VkDescriptorType type, std::span<const std::byte> bytes,
                        const char* what) {
-    const bool uniform = type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    const std::uint32_t most = uniform ? device.limits().maxUniformBufferRange : most_storage;
-    const char* const limit = uniform ? "maxUniformBufferRange" : "maxStorageBufferRange";
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    const std::uint32_t most = type == uniform ? limits.maxUniformBufferRange : limits.maxStorageBufferRange;
+    const char* const limit = type == uniform ? "maxUniformBufferRange" : "maxStorageBufferRange";
     if (bytes.size() > most)
-      throw MachineError(fmt::format("cannot compose the material \"{}\" on \"{}\": {} need {} bytes in one "
-                                     "buffer, {} is {}; use {}, or "
-                                     "--device cpu",
-                                     material, device.info().name, what, bytes.size(), limit, most,
-                                     std::string_view(what) == "its maps" ? "smaller maps" : "fewer layers"));
+      refuse(fmt::format("{} need {} bytes in one buffer, {} is {}", what, bytes.size(), limit, most),
+             "fewer layers");
     bindings.push_back({static_cast<std::uint32_t>(binding), type, 1, 0});
-    stack_buffers_.push_back({static_cast<std::uint32_t>(binding), make_device_buffer(device, bytes)});
+    stack_buffers_.push_back({static_cast<std::uint32_t>(binding), 0, make_device_buffer(device, bytes)});
   };
   using Layout = shadergen::ExactLayout;
-  if (!shader.parameter_data.empty())
-    add(Layout::parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, shader.parameter_data, "its numbers");
-  if (shader.decal_count > 0)
-    add(Layout::decals, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, shader.decal_data, "its decals");
-  if (!maps.empty()) {
-    const MapWords words = words_of(maps);
-    add(Layout::words, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.words)), "its maps");
-    add(Layout::maps, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.maps)), "its maps");
+  if (!shader.parameter_data.empty()) add(Layout::parameters, uniform, shader.parameter_data, "its numbers");
+  if (shader.decal_count > 0) add(Layout::decals, storage, shader.decal_data, "its decals");
+  if (!maps.maps().empty()) {
+    add(Layout::maps, storage, std::as_bytes(std::span(maps.maps())), "its maps");
+    const auto count = static_cast<std::uint32_t>(maps.buffer_count());
+    const auto others = static_cast<std::uint32_t>(
+        std::count_if(bindings.begin(), bindings.end(), [](const Binding& b) { return b.type == storage; }));
+    if (const std::string lacking = lacks_for(device.limits(), others + count); !lacking.empty())
+      refuse(fmt::format("its maps need {} buffers, all in all {}, {}", count, others + count, lacking),
+             "smaller maps");
+    bindings.push_back({Layout::words, storage, count, 0});
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::vector<std::uint32_t> words = maps.words(static_cast<int>(k));
+      stack_buffers_.push_back(
+          {Layout::words, k, make_device_buffer(device, std::as_bytes(std::span(words)))});
+    }
   }
   constexpr std::uint32_t constant_bytes = 2 * sizeof(std::uint32_t);
-  const std::string text = text_of(shader);
+  const std::string text = text_of(shader, maps);
   pipeline_ = cache.pipeline(text, [&] {
     return std::make_shared<const ComputePipeline>(device, compile({.text = text, .name = shader.name}),
                                                    bindings, constant_bytes);
@@ -269,7 +253,7 @@ std::vector<float> StackPipeline::object_values(const engine::Placement& placeme
 BoundResources StackPipeline::bound(const Buffer& fragments, const Buffer& results,
                                     const Buffer& object) const {
   BoundResources resources(device_, *pipeline_);
-  for (const auto& [binding, buffer] : stack_buffers_) resources.bind(binding, buffer);
+  for (const SetZero& each : stack_buffers_) resources.bind(each.binding, each.buffer, 0, each.element);
   resources.bind(fragments_binding, fragments, 1);
   resources.bind(results_binding, results, 1);
   resources.bind(object_binding, object, 1);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "gpu/fragments.hpp"
+#include "gpu/map_words.hpp"
 #include "gpu/pipeline.hpp"
-#include "image/height_field.hpp"
 #include "shadergen/shadergen.hpp"
 
 #include <cstdint>
@@ -11,12 +11,6 @@
 #include <vector>
 
 namespace surfgrad::gpu {
-
-/// A map of a generated shader, in the order of Shader::textures; a relief is two, each with its nodes.
-struct StackMap {
-  const image::Map* map = nullptr;
-  const image::HeightField* field = nullptr; ///< whose map it is; null where rays do not meet it
-};
 
 /// An attribute of fragments that a shader reads.
 struct StackAttribute {
@@ -28,12 +22,12 @@ struct StackAttribute {
 /// compose fragments.
 class StackPipeline {
  public:
-  /// cache   of pipelines: stacks that differ in numbers and maps alone share theirs
-  /// material    its name, for messages
-  /// most_bytes  of a storage buffer, if the device allows as many: for tests
-  /// throws  MachineError where its maps exceed the device's buffers
-  StackPipeline(const Device& device, const shadergen::Shader& shader, const std::vector<StackMap>& maps,
-                PipelineCache& cache, const std::string& material, std::uint32_t most_bytes = UINT32_MAX);
+  /// maps      of the shader
+  /// cache     of pipelines: stacks that differ in numbers and maps alone share theirs
+  /// material  its name, for messages
+  /// throws    MachineError where it exceeds the device's limits
+  StackPipeline(const Device& device, const shadergen::Shader& shader, const MapWords& maps,
+                PipelineCache& cache, const std::string& material);
 
   /// Arrays of a batch of fragments, in this order, each of floats_of its attribute.
   [[nodiscard]] const std::vector<StackAttribute>& attributes() const { return attributes_; }
@@ -65,6 +59,7 @@ class StackPipeline {
   bool has_sunlight_ = false;
   struct SetZero {
     std::uint32_t binding;
+    std::uint32_t element; ///< of an array
     Buffer buffer;
   };
   std::vector<SetZero> stack_buffers_;

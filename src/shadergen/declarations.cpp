@@ -54,10 +54,9 @@ std::string glsl(const Shader& shader, const Options& options) {
                           "stack_decal_data[]; }};\n",
                           ExactLayout::decals);
     if (!shader.textures.empty())
-      text += fmt::format(
-          "layout(std430, set = 0, binding = {}) readonly buffer StackWords {{ uint stack_words[]; }};\n"
-          "layout(std430, set = 0, binding = {}) readonly buffer StackMaps {{ uint stack_maps[]; }};\n\n",
-          ExactLayout::words, ExactLayout::maps);
+      text += fmt::format("layout(std430, set = 0, binding = {}) readonly buffer StackMaps {{ uint "
+                          "stack_maps[]; }};\n\n",
+                          ExactLayout::maps);
   } else {
     text += "// OpenGL ES gives its bindings in the program; other numbers: define these before.\n"
             "#ifndef SURFGRAD_BINDING\n"
@@ -186,6 +185,37 @@ std::string godot(const Shader& shader) {
 } // namespace
 
 int most_textures(Language language) { return language == Language::hlsl ? 128 : 16; }
+
+std::string exact_words(const Shader& shader, const std::vector<int>& blocks) {
+  if (shader.textures.empty()) return {};
+  const auto named = [&](const std::string& code) { return renamed(code, shader.name, shader.type_name); };
+  const std::string declaration =
+      fmt::format("layout(std430, set = 0, binding = {}) readonly buffer StackWords ", ExactLayout::words);
+  const int last = blocks.empty() ? 0 : *std::max_element(blocks.begin(), blocks.end());
+  if (last == 0)
+    return named(declaration + "{ uint stack_words[]; };\n"
+                               "int stack_block_of(int map) { return 0; }\n"
+                               "uint stack_word(int block, uint at) { return stack_words[at]; }\n");
+  // Not every device takes an index into an array of buffers that is no constant. What is one after functions
+  // have been inlined leaves one of the reads.
+  std::string chosen, reads;
+  for (std::size_t map = 0; map < blocks.size(); ++map)
+    if (blocks[map] > 0) chosen += fmt::format("  if (map == {}) block = {};\n", map, blocks[map]);
+  for (int k = 0; k <= last; ++k)
+    reads +=
+        fmt::format("  {}word = stack_words[{}].words[at];\n",
+                    k == last ? "else " : fmt::format("{}if (block == {}) ", k > 0 ? "else " : "", k), k);
+  return named(declaration + fmt::format("{{ uint words[]; }} stack_words[{}];\n"
+                                         "int stack_block_of(int map) {{\n"
+                                         "  int block = 0;\n{}"
+                                         "  return block;\n"
+                                         "}}\n"
+                                         "uint stack_word(int block, uint at) {{\n"
+                                         "  uint word;\n{}"
+                                         "  return word;\n"
+                                         "}}\n",
+                                         last + 1, chosen, reads));
+}
 
 void number_bindings(Shader& shader, const Options& options) {
   if (options.access == TextureAccess::exact) {

@@ -1,7 +1,9 @@
 // The engine's sampler (src/image) for `exact` access, in GLSL 450: the same texels, the same filters, in the same
-// order. Only functions that are called become part of the code; NAME_words and NAME_maps are declared before.
+// order. Only functions that are called become part of the code; NAME_maps is declared before, and the
+// functions of exact_words: NAME_block_of(map) and NAME_word(block, at).
 
 struct StackMap {
+  int block; // of its words
   uint texels, levels, level_count;
   uint format; // 0 floats, 1 slope16, 2 unorm16
   uint components;
@@ -13,8 +15,8 @@ struct StackMap {
 StackMap stack_map_of(int map) {
   uint first = uint(8 * map);
   uint format = stack_maps[first + 3u];
-  return StackMap(stack_maps[first], stack_maps[first + 1u], stack_maps[first + 2u], format & 255u,
-                  (format >> 8u) & 255u, format >= 65536u, uintBitsToFloat(stack_maps[first + 4u]),
+  return StackMap(stack_block_of(map), stack_maps[first], stack_maps[first + 1u], stack_maps[first + 2u],
+                  format & 255u, (format >> 8u) & 255u, format >= 65536u, uintBitsToFloat(stack_maps[first + 4u]),
                   stack_maps[first + 5u], stack_maps[first + 6u], stack_maps[first + 7u]);
 }
 
@@ -22,8 +24,9 @@ StackMap stack_map_of(int map) {
 uint stack_index(float i, float count) { return 0.0 < i ? uint(min(i, count - 1.0)) : 0u; }
 
 vec2 stack_map_size(int map) {
+  int block = stack_block_of(map);
   uint levels = stack_maps[uint(8 * map) + 1u];
-  return vec2(float(stack_words[levels]), float(stack_words[levels + 1u]));
+  return vec2(float(stack_word(block, levels)), float(stack_word(block, levels + 1u)));
 }
 
 // image/anisotropy.hpp
@@ -81,24 +84,25 @@ vec2 stack_linear_tap(float s, float n, int wrap) {
 
 vec3 stack_texel(StackMap map, uint word) {
   if (map.format == 1u) {
-    int codes = int(stack_words[word]);
+    int codes = int(stack_word(map.block, word));
     return vec3(map.scale * float((codes << 16) >> 16), map.scale * float(codes >> 16), 0.0);
   }
-  if (map.format == 2u) return vec3(map.scale * float(stack_words[word] & 65535u), 0.0, 0.0);
-  vec3 texel = vec3(uintBitsToFloat(stack_words[word]), 0.0, 0.0);
-  if (map.components > 1u) texel.y = uintBitsToFloat(stack_words[word + 1u]);
-  if (map.components > 2u) texel.z = uintBitsToFloat(stack_words[word + 2u]);
+  if (map.format == 2u) return vec3(map.scale * float(stack_word(map.block, word) & 65535u), 0.0, 0.0);
+  vec3 texel = vec3(uintBitsToFloat(stack_word(map.block, word)), 0.0, 0.0);
+  if (map.components > 1u) texel.y = uintBitsToFloat(stack_word(map.block, word + 1u));
+  if (map.components > 2u) texel.z = uintBitsToFloat(stack_word(map.block, word + 2u));
   return texel;
 }
 
 vec3 stack_filter_level(StackMap map, uint level, vec2 st, int wrap_s, int wrap_t) {
   uint row = map.levels + 3u * level;
-  uint width = stack_words[row];
+  uint width = stack_word(map.block, row);
   uint words = map.format == 0u ? map.components : 1u;
   vec2 x = stack_linear_tap(st.x, float(width), wrap_s);
-  vec2 y = stack_linear_tap(st.y, float(stack_words[row + 1u]), wrap_t);
-  uint word = map.texels + stack_words[row + 2u] + (stack_index(y.x, float(stack_words[row + 1u])) * (width + 1u) +
-                                                      stack_index(x.x, float(width))) * words;
+  uint height = stack_word(map.block, row + 1u);
+  vec2 y = stack_linear_tap(st.y, float(height), wrap_t);
+  uint place = stack_index(y.x, float(height)) * (width + 1u) + stack_index(x.x, float(width));
+  uint word = map.texels + stack_word(map.block, row + 2u) + place * words;
   uint above = word + (width + 1u) * words;
   vec3 a = stack_texel(map, word), b = stack_texel(map, word + words);
   vec3 c = stack_texel(map, above), d = stack_texel(map, above + words);
@@ -111,12 +115,12 @@ vec3 stack_map_at(int number, vec2 coordinate, float lod, int wrap_s, int wrap_t
   StackMap map = stack_map_of(number);
   vec2 st = vec2(stack_folded(coordinate.x, wrap_s), stack_folded(coordinate.y, wrap_t));
   if (filter_kind == 0) {
-    uint width = stack_words[map.levels];
+    uint width = stack_word(map.block, map.levels);
     uint words = map.format == 0u ? map.components : 1u;
     vec2 n = stack_map_size(number);
     uint x = stack_index(st.x * n.x, n.x);
     uint y = stack_index(st.y * n.y, n.y);
-    return stack_texel(map, map.texels + stack_words[map.levels + 2u] + (y * (width + 1u) + x) * words);
+    return stack_texel(map, map.texels + stack_word(map.block, map.levels + 2u) + (y * (width + 1u) + x) * words);
   }
   if (filter_kind == 1) return stack_filter_level(map, 0u, st, wrap_s, wrap_t);
   float clamped = 0.0 < lod ? min(lod, float(map.level_count - 1u)) : 0.0;
@@ -175,8 +179,8 @@ vec2 stack_map_height_slope(int number, vec2 st, StackFootprint footprint, int w
 // A height of level 0.
 float stack_map_texel(int number, int x, int y) {
   StackMap map = stack_map_of(number);
-  uint width = stack_words[map.levels];
-  return stack_texel(map, map.texels + stack_words[map.levels + 2u] + uint(y) * (width + 1u) + uint(x)).x;
+  uint width = stack_word(map.block, map.levels);
+  return stack_texel(map, map.texels + stack_word(map.block, map.levels + 2u) + uint(y) * (width + 1u) + uint(x)).x;
 }
 
 // image/cube_map.hpp
@@ -197,13 +201,13 @@ float stack_cube_lod(int number, vec3 direction, vec3 direction_dx, vec3 directi
 
 vec3 stack_sample_cube_level(StackMap map, uint face, vec2 st, uint level) {
   uint row = map.levels + 3u * level;
-  uint width = stack_words[row];
+  uint width = stack_word(map.block, row);
   vec2 p = (0.5 * st + 0.5) * (float(width) - 2.0) + 0.5;
   vec2 low = floor(p);
   vec2 fraction = p - low;
-  uint word =
-      map.texels + stack_words[row + 2u] + ((face * width + stack_index(low.y, float(width - 1u))) * (width + 1u) +
-                                                      stack_index(low.x, float(width))) * 3u;
+  uint line = face * width + stack_index(low.y, float(width - 1u));
+  uint place = line * (width + 1u) + stack_index(low.x, float(width));
+  uint word = map.texels + stack_word(map.block, row + 2u) + place * 3u;
   uint above = word + (width + 1u) * 3u;
   vec3 a = stack_texel(map, word), b = stack_texel(map, word + 3u);
   vec3 c = stack_texel(map, above), d = stack_texel(map, above + 3u);
@@ -302,16 +306,16 @@ float stack_within(StackRayAxis axis, float cell, float height) {
 // The ray's way through one cell: height (x), and 1 where it meets the bilinear surface (y).
 vec2 stack_cross_cell(StackRay ray, vec2 cell, float from, float to) {
   uint row = ray.field.levels + 3u * ray.level;
-  uint stride = stack_words[row] + 1u;
-  uint first = ray.field.texels + stack_words[row + 2u];
+  uint stride = stack_word(ray.field.block, row) + 1u;
+  uint first = ray.field.texels + stack_word(ray.field.block, row + 2u);
   uint left = stack_texel_index(ray.x, cell.x), right = stack_texel_index(ray.x, cell.x + 1.0);
   uint below = first + stride * stack_texel_index(ray.y, cell.y);
   uint above = first + stride * stack_texel_index(ray.y, cell.y + 1.0);
-  float corner = uintBitsToFloat(stack_words[below + left]);
-  float along_x = uintBitsToFloat(stack_words[below + right]) - corner;
-  float above_left = uintBitsToFloat(stack_words[above + left]);
+  float corner = uintBitsToFloat(stack_word(ray.field.block, below + left));
+  float along_x = uintBitsToFloat(stack_word(ray.field.block, below + right)) - corner;
+  float above_left = uintBitsToFloat(stack_word(ray.field.block, above + left));
   float along_y = above_left - corner;
-  float twist = (uintBitsToFloat(stack_words[above + right]) - above_left) - along_x;
+  float twist = (uintBitsToFloat(stack_word(ray.field.block, above + right)) - above_left) - along_x;
   float x0 = stack_within(ray.x, cell.x, from), x1 = stack_within(ray.x, cell.x, to);
   float y0 = stack_within(ray.y, cell.y, from), y1 = stack_within(ray.y, cell.y, to);
   // Clearance over the way u from 0 to 1: before - fall * u - bend * u^2.
@@ -335,11 +339,11 @@ vec2 stack_cross_cell(StackRay ray, vec2 cell, float from, float to) {
 
 // Largest height over the cells of a node.
 float stack_node_maximum(StackRay ray, float column, float line, float size, uint order) {
-  uint first = stack_words[ray.field.rows + ray.level * ray.field.row_words + order];
+  uint first = stack_word(ray.field.block, ray.field.rows + ray.level * ray.field.row_words + order);
   uint width = uint(stack_floor_quotient(ray.x.count + size - 1.0, size));
   uint lines = uint(stack_floor_quotient(ray.y.count + size - 1.0, size));
   uint node = stack_index(line, float(lines)) * width + stack_index(column, float(width));
-  return uintBitsToFloat(stack_words[ray.field.nodes + first + node]);
+  return uintBitsToFloat(stack_word(ray.field.block, ray.field.nodes + first + node));
 }
 
 float stack_leaves_at(StackRayAxis axis, StackSpan span) {
@@ -358,7 +362,7 @@ float stack_next_cell(StackRayAxis axis, StackSpan span, float from, bool crosse
 
 // First crossing on the way from height 1 down to `end`: height (x), and 1 where there is one (y).
 vec2 stack_first_crossing(StackRay ray, float end) {
-  uint last = stack_words[ray.field.rows + ray.level * ray.field.row_words];
+  uint last = stack_word(ray.field.block, ray.field.rows + ray.level * ray.field.row_words);
   float height = 1.0;
   // Above the whole map nothing is met.
   if (last > 0u) height = min(stack_node_maximum(ray, 0.0, 0.0, 2097152.0, last), 1.0);
@@ -413,7 +417,7 @@ StackRay stack_leveled_ray(int number, vec2 st, vec2 way, float lod, int wrap_s,
   StackMap field = stack_map_of(number);
   uint level = stack_index(floor(lod + 0.5), float(field.level_count));
   uint row = field.levels + 3u * level;
-  vec2 count = max(vec2(float(stack_words[row]), float(stack_words[row + 1u])), vec2(1.0));
+  vec2 count = max(vec2(float(stack_word(field.block, row)), float(stack_word(field.block, row + 1u))), vec2(1.0));
   vec2 dst = clamp(way, -1099511627776.0, 1099511627776.0);
   float length_ = surfgrad_max_abs(dst * count);
   dst *= 65536.0 < length_ ? 65536.0 / max(length_, 1.0) : 1.0;

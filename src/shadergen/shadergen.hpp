@@ -177,16 +177,19 @@ struct Shader {
 ///
 ///   binding 0  uniform block of the parameters (as Shader::parameters_binding says; absent if empty)
 ///   binding 1  the decals (absent if there are none)
-///   binding 2  NAME_words: texels, level tables and nodes of all maps, one after the other, in any order
+///   binding 2  NAME_words: texels, level tables and nodes of all maps, one after the other, in any order; an
+///              array of buffers where exact_words says so
 ///   binding 3  NAME_maps: one ExactMap a texture, two for a relief (from above, then from below), in the
 ///              order of Shader::textures
 ///
-/// The caller declares nothing of these and writes his own main, whose bindings begin at first_free.
+/// The caller puts exact_words before the code, declares nothing else of these and writes his own main, whose
+/// bindings begin at first_free.
 struct ExactLayout {
   static constexpr int parameters = 0, decals = 1, words = 2, maps = 3, first_free = 4;
 };
 
-/// A map in the buffers of `exact` access, words as image::Map has them; positions count words of NAME_words.
+/// A map in the buffers of `exact` access, words as image::Map has them; positions count words of
+/// its buffer.
 struct ExactMap {
   std::uint32_t texels = 0;      ///< where Map::words begins
   std::uint32_t levels = 0;      ///< where Map::level_table begins
@@ -207,6 +210,12 @@ static_assert(sizeof(ExactMap) == 32);
 /// throws  InputError with the layer's line and key for what a language cannot express: more textures or
 ///         decals than its limits, a volume function of the program's own
 [[nodiscard]] Shader generate(const std::vector<stack::Layer>& layers, const Options& options);
+
+/// `exact` access: what stands before the code, the buffers of the words and the functions that read them.
+///
+/// blocks  in which buffer the words of each map lie, from 0 on; absent: all in one. They are constants of
+///         the code, so that no device chooses between buffers at every texel.
+[[nodiscard]] std::string exact_words(const Shader& shader, const std::vector<int>& blocks = {});
 
 /// What the file beside the code says: bindings and what their texels mean, parameters with their offsets and
 /// values, members of the surface. JSON, ends with a line feed.

@@ -14,6 +14,7 @@
 namespace surfgrad {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
@@ -75,10 +76,11 @@ TEST_F(DeviceOption, RefusesOtherWords) {
     EXPECT_EQ(outcome.status, 2) << word;
     EXPECT_THAT(outcome.error, HasSubstr("is not a device")) << word;
   }
-  for (const char* tile : {"0", "-1", "5000", "x"}) {
+  for (const char* tile : {"0", "-1", "513", "x"}) {
     const Outcome outcome =
         run_program({"bake", "-o", "out.png", "--device", "vulkan", "--max-tile", tile}, folder_.path());
     EXPECT_EQ(outcome.status, 2) << tile;
+    EXPECT_THAT(outcome.error, AllOf(StartsWith("--max-tile: "), HasSubstr("512"))) << tile;
   }
   // The processor has tiles of its own.
   const Outcome outcome = run_program({"bake", "-o", "out.png", "--max-tile", "9"}, folder_.path());

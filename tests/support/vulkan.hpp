@@ -1,10 +1,11 @@
 #pragma once
 
 /// Tests on a Vulkan device (support/software_driver.hpp). Each fails on anything that the validation layer
-/// says.
+/// says. Memory that the processor reads holds anything but zeros before it is written.
 
 #include "gpu/device.hpp"
 #include "support/software_driver.hpp"
+#include "support/vulkan_faults.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,9 +17,13 @@ class VulkanTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     choose_software_driver();
+    if (!dirty_memory) dirty_memory = std::make_unique<VulkanFaults>("fill");
     if (!shared) shared = std::make_unique<gpu::Device>(gpu::DeviceOptions{.validate = true});
   }
-  static void TearDownTestSuite() { shared.reset(); }
+  static void TearDownTestSuite() {
+    shared.reset();
+    dirty_memory.reset();
+  }
   static const gpu::Device& device() { return *shared; }
 
   void SetUp() override { before_ = device().messages().size(); }
@@ -28,6 +33,7 @@ class VulkanTest : public ::testing::Test {
   }
 
  private:
+  inline static std::unique_ptr<VulkanFaults> dirty_memory;
   inline static std::unique_ptr<gpu::Device> shared;
   std::size_t before_ = 0;
 };

@@ -32,6 +32,12 @@ std::vector<float> floats_in(const gpu::Buffer& buffer) {
   return values;
 }
 
+// Else a result that nobody writes would pass for zero.
+TEST_F(Compute, MemoryOfTheTestsIsNotZero) {
+  const gpu::Buffer buffer(device(), 1000, gpu::Residence::result);
+  for (const std::byte each : buffer.mapped()) ASSERT_EQ(each, std::byte{0x55});
+}
+
 constexpr const char* doubling = R"(#version 450
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer In { float from[]; };

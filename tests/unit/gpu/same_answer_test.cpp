@@ -2,12 +2,9 @@
 /// next to the same picture however it is cut into tiles: the same bytes where tiles are composed in parts.
 
 #include "bake/bake.hpp"
-#include "diagnostic/error.hpp"
 #include "gallery/figures.hpp"
 #include "golden/golden_scenes.hpp"
 #include "gpu/backend.hpp"
-#include "gpu/stack_pipeline.hpp"
-#include "image/pyramid.hpp"
 #include "render/render.hpp"
 #include "support/angle.hpp"
 #include "support/vulkan.hpp"
@@ -127,6 +124,9 @@ class Largest {
     EXPECT_GT(a.count, 500u) << where << " shows next to nothing";
     EXPECT_LT(a.mean, most_mean) << where;
     EXPECT_LT(a.usual, most_usual) << where;
+    // Silhouettes and steps of a stack (mip levels, hex tiles, borders of decals) might fall differently in a
+    // pixel or two; on the driver of the tests none does.
+    EXPECT_LT(a.worst, most_usual) << where;
     EXPECT_EQ(got.covered, expected.covered) << where;
     EXPECT_EQ(got.degenerate, expected.degenerate) << where;
     angles_.mean = std::max(angles_.mean, a.mean);
@@ -228,26 +228,6 @@ TEST_F(SameAnswer, DoesNotDependOnTheTiles) {
   const gpu::Backend narrow(device(), gpu::Backend::usual_tile_side, 333);
   options.backend = &narrow;
   EXPECT_EQ(largest_difference(bake::bake(scene, options).map, whole.map), 0);
-}
-
-TEST_F(SameAnswer, NamesTheMaterialWhoseMapsAreTooLarge) {
-  shadergen::Options options;
-  options.access = shadergen::TextureAccess::exact;
-  options.diagnostics = true;
-  const shadergen::Shader shader = shadergen::generate({}, options);
-  const std::vector<float> texels(64 * 64, 0.5f);
-  const image::Map map = image::with_pyramid(image::rows_of(texels, 64, 1), 64, 64, 1);
-  gpu::PipelineCache cache;
-  try {
-    gpu::StackPipeline(device(), shader, {{&map}}, cache, "brick", 100);
-    FAIL() << "maps larger than a buffer were taken";
-  } catch (const MachineError& error) {
-    using ::testing::HasSubstr;
-    EXPECT_THAT(error.what(),
-                ::testing::AllOf(HasSubstr("the material \"brick\""), HasSubstr("bytes in one buffer"),
-                                 HasSubstr("maxStorageBufferRange is 100"),
-                                 HasSubstr("use smaller maps, or --device cpu")));
-  }
 }
 
 } // namespace

@@ -168,8 +168,9 @@ void expect_exact(const std::vector<NamedStack>& stacks) {
                              shader.type_name +
                              "Surface s; s.normal = vec3(1.0); color.xyz = " + shader.name +
                              "_normal(s).normal; }\n";
-    expect_accepted(surfgrad::test::compile_glsl("#version 450\n" + shader.source + main, "comp"),
-                    "exact " + shader.name);
+    expect_accepted(
+        surfgrad::test::compile_glsl("#version 450\n" + exact_words(shader) + shader.source + main, "comp"),
+        "exact " + shader.name);
   }
 }
 
