@@ -180,9 +180,24 @@ void add_shader_command(CLI::App& program) {
       ->transform(one_of(origins))
       ->type_name("NAME")
       ->option_text("NAME");
+  constexpr int most_bindings = 999, most_groups = 31; // WebGPU's largest binding; groups beyond any device's
+  CLI::Option* const first = verb.add_option("--first-binding", command->job.first_binding,
+                                             "number of the first binding: in HLSL of each kind of register")
+                                 ->capture_default_str()
+                                 ->check(CLI::Range(0, most_bindings))
+                                 ->type_name("N");
+  CLI::Option* const group =
+      verb.add_option("--group", command->job.group, "WGSL's group, HLSL's space, in Vulkan's GLSL the set")
+          ->capture_default_str()
+          ->check(CLI::Range(0, most_groups))
+          ->type_name("N");
   verb.add_flag("-q,--quiet", command->quiet, "no summary (but --json)");
   verb.add_flag("--json", command->json, "summary as one line of JSON, even with --quiet");
-  verb.callback([command] { run(*command); });
+  verb.callback([command, first, group] {
+    if (command->job.language == shadergen::Language::godot && (!first->empty() || !group->empty()))
+      throw CLI::ValidationError(first->empty() ? "--group" : "--first-binding", "Godot numbers no bindings");
+    run(*command);
+  });
 }
 
 } // namespace surfgrad::cli

@@ -271,6 +271,22 @@ std::string comment_block(const Options& options, const Shader& shader, bool dif
   return text + "\n";
 }
 
+/// The library's part in a text that includes nothing.
+std::string inlined_library(const Options& options, std::string_view code) {
+  const Library functions(library_text(options.language), options.language);
+  // WGSL has no preprocessor, and the engine's own device joins nothing.
+  const bool guarded = options.access != TextureAccess::exact && options.language != Language::wgsl;
+  std::string text = functions.used_by(code, guarded);
+  // Where the whole library stands before, nothing of it is wanted again.
+  if (guarded && !text.empty())
+    text = fmt::format("// What is called of the library. Guards let standalone files stand in one program.\n"
+                       "#ifndef {}\n\n{}#endif\n\n",
+                       options.language == Language::hlsl ? "SURFGRAD_HLSL" : "SURFGRAD_GLSL", text);
+  if (options.language == Language::glsl)
+    text = "#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n" + text;
+  return text;
+}
+
 } // namespace
 
 bool is_name(std::string_view text) {
@@ -283,6 +299,8 @@ bool is_name(std::string_view text) {
 Shader generate(const std::vector<stack::Layer>& layers, const Options& options) {
   if (!is_name(options.name))
     throw std::invalid_argument("a shader's name is a lower-case letter, then letters and digits");
+  if (options.first_binding < 0 || options.group < 0)
+    throw std::invalid_argument("a shader's bindings and groups are numbered from 0 on");
   Shader shader;
   const auto fresh = [&] {
     Shader s;
@@ -320,10 +338,7 @@ Shader generate(const std::vector<stack::Layer>& layers, const Options& options)
   const bool inlined = options.standalone || exact || options.language == Language::godot;
   std::string library;
   if (inlined) {
-    const Library functions(library_text(options.language), options.language);
-    library = functions.used_by(code);
-    if (options.language == Language::glsl)
-      library = "#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n" + library;
+    library = inlined_library(options, code);
   } else if (options.language == Language::wgsl) {
     library = fmt::format("// Needs {}: join it to this file.\n\n", library_name(options.language));
   } else {

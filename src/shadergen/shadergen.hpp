@@ -60,7 +60,9 @@ struct Options {
   TextureOrigin origin = TextureOrigin::lower_left;
   /// StackResult has base_normal and degenerate, too: what engine::Composition has.
   bool diagnostics = false;
-  int march_steps = 64; ///< hardware: of the linear search of a parallax
+  int march_steps = 64;  ///< hardware: of the linear search of a parallax
+  int first_binding = 0; ///< hardware: the first number of every kind of binding that the language counts
+  int group = 0;         ///< hardware: WGSL's group, HLSL's space (from 1 on: shader model 5.1), Vulkan's set
   /// Absent: every file is as FileFacts says.
   std::function<FileFacts(const stack::FileName&)> facts_of{};
   const stack::Displace* displace = nullptr; ///< adds the vertex stage where there is one
@@ -163,6 +165,7 @@ struct Shader {
   bool moves = false;        ///< StackResult has position and stN: a parallax moves them
   bool has_sunlight = false; ///< StackResult has sunlight
   std::vector<TextureBinding> textures{};
+  int group = 0; ///< of all bindings; languages that have none, and OpenGL: 0
   int parameters_binding = 0;
   std::vector<Parameter> parameters{};
   std::vector<std::byte> parameter_data{}; ///< what the stack says, in the block's layout; maybe empty
@@ -205,7 +208,8 @@ static_assert(sizeof(ExactMap) == 32);
 /// The code of the layers of one material.
 ///
 /// throws  InputError with the layer's line and key for what a language cannot express: more textures or
-///         decals than its limits, a volume function of the program's own
+///         decals than its limits, registers beyond the last, a volume function of the program's own;
+///         std::invalid_argument for options that no language knows: names, negative bindings
 [[nodiscard]] Shader generate(const std::vector<stack::Layer>& layers, const Options& options);
 
 /// What the file beside the code says: bindings and what their texels mean, parameters with their offsets and

@@ -69,6 +69,29 @@ TEST(Shader, TheOriginOfTextures) {
   EXPECT_FALSE(flips({"--lang", "hlsl", "--origin", "lower_left"}));
 }
 
+TEST(Shader, BindingsBeginWhereAsked) {
+  const Folder folder;
+  const Outcome run = run_program(
+      {"shader", "--lang", "wgsl", "-o", "a.wgsl", "--first-binding", "7", "--group", "2"}, folder.path());
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(text_of(folder.path() / "a.wgsl"), HasSubstr("@group(2) @binding(7) var<uniform>"));
+  const auto json = nlohmann::json::parse(text_of(folder.path() / "a.wgsl.json"));
+  EXPECT_EQ(json["group"], 2);
+  EXPECT_EQ(json["parameters"]["binding"], 7);
+  EXPECT_EQ(json["textures"][0]["binding"], 8);
+  EXPECT_EQ(json["textures"][0]["sampler_binding"], 11);
+  for (const char* option : {"--first-binding", "--group"}) {
+    EXPECT_EQ(run_program({"shader", "--lang", "wgsl", "-o", "a.wgsl", option, "-1"}, folder.path()).status,
+              2);
+    EXPECT_EQ(run_program({"shader", "--lang", "wgsl", "-o", "a.wgsl", option, "1000"}, folder.path()).status,
+              2);
+    const Outcome godot =
+        run_program({"shader", "--lang", "godot", "-o", "a.gd", option, "1"}, folder.path());
+    EXPECT_EQ(godot.status, 2);
+    EXPECT_THAT(godot.error, HasSubstr("Godot numbers no bindings"));
+  }
+}
+
 TEST(Shader, AMaterialIsChosenByName) {
   const Folder folder;
   folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl skin\nf 1/1 2/2 3/3\n"

@@ -147,13 +147,10 @@ void expect_godot(const std::vector<NamedStack>& stacks, Options options) {
   options.language = Language::godot;
   for (const Shader& shader : shaders_of(stacks, options)) {
     EXPECT_EQ(word_that_godot_lacks(shader.source), "") << shader.name;
-    std::string code = std::regex_replace(shader.source, std::regex("(\nuniform [^;:=]*)[:=][^;]*;"), "$1;");
-    code = std::regex_replace(code, std::regex("\nuniform (sampler2D|samplerCube)"), "\nuniform highp $1");
-    expect_accepted(
-        surfgrad::test::compile_glsl("#version 300 es\nprecision highp float;\nprecision highp int;\n" +
-                                         code + main_of_glsl({shader}, true),
-                                     "frag"),
-        "Godot " + shader.name);
+    expect_accepted(surfgrad::test::compile_glsl("#version 300 es\n" + as_glsl_es(shader.source) +
+                                                     main_of_glsl({shader}, true),
+                                                 "frag"),
+                    "Godot " + shader.name);
   }
 }
 
