@@ -19,10 +19,29 @@
 namespace surfgrad::cli {
 namespace {
 
+/// What the code is for: the languages, and GLSL twice.
+enum class Target { glsl, glsl_es, hlsl, wgsl, godot };
+
+shadergen::Language language_of(Target target) {
+  switch (target) {
+  case Target::hlsl:
+    return shadergen::Language::hlsl;
+  case Target::wgsl:
+    return shadergen::Language::wgsl;
+  case Target::godot:
+    return shadergen::Language::godot;
+  case Target::glsl:
+  case Target::glsl_es:
+    break;
+  }
+  return shadergen::Language::glsl;
+}
+
 struct ShaderCommand {
   std::string scene; // empty: the built-in demo
   std::string output;
   std::string material;
+  Target target = Target::glsl;
   shadergen::Options job;
   std::optional<TextureOrigin> origin;
   bool quiet = false;
@@ -86,6 +105,8 @@ void run(const ShaderCommand& command) {
   }();
   const scene::Material& material = material_of(scene, command);
   shadergen::Options job = command.job;
+  job.language = language_of(command.target);
+  job.es = command.target == Target::glsl_es;
   job.back_faces = material.back_faces;
   job.origin = command.origin.value_or(usual_origin(job.language));
   job.displace = scene.displace ? &*scene.displace : nullptr;
@@ -104,15 +125,19 @@ void run(const ShaderCommand& command) {
     io::write_file(beside, bytes_of(manifest));
     io::write_file(output, bytes_of(shader.source));
   }
+  if (!shader.beyond_es.empty()) console.warn(shader.beyond_es);
   const auto lines = std::count(shader.source.begin(), shader.source.end(), '\n');
   if (command.json) {
+    nlohmann::json warnings = nlohmann::json::array();
+    if (!shader.beyond_es.empty()) warnings.push_back(shader.beyond_es);
     console.say_json({{"output", output.string()},
                       {"bindings", beside.string()},
                       {"function", shader.name + "_normal"},
                       {"lines", lines},
                       {"textures", shader.textures.size()},
                       {"parameters", shader.parameters.size()},
-                      {"decals", shader.decal_count}});
+                      {"decals", shader.decal_count},
+                      {"warnings", warnings}});
     return;
   }
   console.say(fmt::format("wrote {} ({} lines: {}_normal; {} textures, {} parameters) and {}",
@@ -156,14 +181,16 @@ void add_shader_command(CLI::App& program) {
       ->required()
       ->check(not_empty())
       ->type_name("FILE");
-  const std::map<std::string, shadergen::Language> languages{{"glsl", shadergen::Language::glsl},
-                                                             {"hlsl", shadergen::Language::hlsl},
-                                                             {"wgsl", shadergen::Language::wgsl},
-                                                             {"godot", shadergen::Language::godot}};
-  verb.add_option("--lang", command->job.language,
-                  "glsl (450 and ES 3.00), hlsl (shader model 5), wgsl or godot (4.5)")
+  const std::map<std::string, Target> targets{{"glsl", Target::glsl},
+                                              {"glsl_es", Target::glsl_es},
+                                              {"hlsl", Target::hlsl},
+                                              {"wgsl", Target::wgsl},
+                                              {"godot", Target::godot}};
+  verb.add_option("--lang", command->target,
+                  "glsl (450; ES 3.00 unless a warning says not), glsl_es (the same code, refused where it\n"
+                  "is none of ES 3.00's), hlsl (shader model 5), wgsl or godot (4.5)")
       ->required()
-      ->transform(one_of(languages))
+      ->transform(one_of(targets))
       ->type_name("NAME")
       ->option_text("NAME");
   verb.add_flag("--standalone", command->job.standalone, "write the library functions that are used, too");
@@ -194,7 +221,7 @@ void add_shader_command(CLI::App& program) {
   verb.add_flag("-q,--quiet", command->quiet, "no summary (but --json)");
   verb.add_flag("--json", command->json, "summary as one line of JSON, even with --quiet");
   verb.callback([command, first, group] {
-    if (command->job.language == shadergen::Language::godot && (!first->empty() || !group->empty()))
+    if (command->target == Target::godot && (!first->empty() || !group->empty()))
       throw CLI::ValidationError(first->empty() ? "--group" : "--first-binding", "Godot numbers no bindings");
     run(*command);
   });

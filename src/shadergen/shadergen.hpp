@@ -51,6 +51,7 @@ struct FileFacts {
 
 struct Options {
   Language language = Language::glsl;
+  bool es = false; ///< glsl: what ES 3.00 cannot express is refused, too; else Shader::beyond_es names it
   TextureAccess access = TextureAccess::hardware;
   std::string name = "stack"; ///< begins every identifier: a lower-case letter, then letters and digits
   bool standalone = false;    ///< the library functions that are used stand in the text itself
@@ -172,6 +173,7 @@ struct Shader {
   int decals_binding = 0;
   int decal_count = 0;
   bool decals_in_block = false;        ///< a uniform block, else a storage buffer
+  std::string beyond_es{};             ///< glsl: the layer and why the code compiles as 450 alone; or empty
   std::vector<std::byte> decal_data{}; ///< decal_count times bytes_a_decal
   bool displaces = false;              ///< there is NAME_displaced for the vertex stage
 };

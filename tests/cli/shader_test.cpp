@@ -114,24 +114,49 @@ TEST(Shader, AMaterialIsChosenByName) {
   EXPECT_THAT(text_of(folder.path() / "a.glsl"), HasSubstr("surfgrad_worley("));
 }
 
-TEST(Shader, WhatCannotBeSaidIsRefusedAndLeavesNoFile) {
-  const Folder folder;
+/// A stack of 66 decals in one layer.
+void write_many_decals(const Folder& folder) {
   std::string layers;
   for (int i = 0; i < 66; ++i) layers += i > 0 ? ", {}" : "{}";
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  folder.write("n.ppm", "");
   folder.write("many.json", "{ \"surfgrad\": 1, \"mesh\": \"a.obj\", \"layers\": [\n"
                             "  { \"type\": \"decal\", \"map\": \"" SURFGRAD_SOURCE_DIR
                             "/docs/images/demo.png\",\n"
                             "    \"instances\": [" +
                                 layers + "] } ] }");
-  const Outcome run =
-      run_program({"shader", "many.json", "--lang", "godot", "-o", "a.gdshaderinc"}, folder.path());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(
-      run.error,
-      HasSubstr("many.json:2: layers[0]: brings the stack to 66 decals; a shader in this language takes 64"));
-  EXPECT_THAT(folder.files(), Not(testing::Contains(StartsWith("a.gd"))));
+}
+
+TEST(Shader, WhatCannotBeSaidIsRefusedAndLeavesNoFile) {
+  const Folder folder;
+  write_many_decals(folder);
+  for (const char* language : {"godot", "glsl_es"}) {
+    const Outcome run =
+        run_program({"shader", "many.json", "--lang", language, "-o", "a.txt"}, folder.path());
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.error,
+                HasSubstr("many.json:2: layers[0]: brings the stack to 66 decals; a shader in this "
+                          "language takes 64"));
+    EXPECT_THAT(folder.files(), ElementsAre("a.obj", "many.json"));
+  }
+}
+
+TEST(Shader, WhatOnlyOneGLSLTakesIsWarnedOf) {
+  const Folder folder;
+  write_many_decals(folder);
+  const char* const warning =
+      "many.json:2: layers[0]: brings the stack to 66 decals; the code compiles as GLSL "
+      "450 alone, as ES takes 64";
+  const Outcome run = run_program({"shader", "many.json", "--lang", "glsl", "-o", "a.glsl"}, folder.path());
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.error, HasSubstr(std::string("warning: ") + warning));
+  const Outcome json =
+      run_program({"shader", "many.json", "--lang", "glsl", "-o", "a.glsl", "--json", "-q"}, folder.path());
+  EXPECT_EQ(json.error, "");
+  EXPECT_EQ(nlohmann::json::parse(json.out)["warnings"], nlohmann::json::array({warning}));
+  const Outcome hlsl =
+      run_program({"shader", "many.json", "--lang", "hlsl", "-o", "a.hlsl", "--json"}, folder.path());
+  EXPECT_EQ(hlsl.error, "");
+  EXPECT_TRUE(nlohmann::json::parse(hlsl.out)["warnings"].empty());
 }
 
 TEST(Shader, UsageMistakes) {
@@ -140,7 +165,8 @@ TEST(Shader, UsageMistakes) {
   for (const char* word : {"cg", "0", "GLSL", ""}) {
     const Outcome language = run_program({"shader", "--lang", word, "-o", "a.cg"}, folder.path());
     EXPECT_EQ(language.status, 2) << word;
-    EXPECT_THAT(language.error, HasSubstr(std::string(word) + "\" is none of glsl, godot, hlsl, wgsl"));
+    EXPECT_THAT(language.error,
+                HasSubstr(std::string(word) + "\" is none of glsl, glsl_es, godot, hlsl, wgsl"));
   }
   const Outcome name =
       run_program({"shader", "--lang", "glsl", "--name", "My_Skin", "-o", "a"}, folder.path());

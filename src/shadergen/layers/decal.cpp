@@ -198,13 +198,20 @@ void append_instances(const stack::DecalLayer& layer, Generator& g) {
     std::memcpy(shader.decal_data.data() + end, values.data(), sizeof values);
     ++shader.decal_count;
   }
-  const int most = g.options().language == Language::godot ? most_decals_es : most_decals;
-  if (shader.decal_count > most)
-    throw InputError({.file = g.options().document,
-                      .line = layer.common.line,
-                      .place = layer.common.key,
-                      .problem = fmt::format("brings the stack to {} decals", shader.decal_count),
-                      .remedy = fmt::format("a shader in this language takes {}", most)});
+  const Options& options = g.options();
+  const bool glsl = options.language == Language::glsl && !g.exact();
+  const int most = options.language == Language::godot || (glsl && options.es) ? most_decals_es : most_decals;
+  const auto fault = [&](std::string remedy) {
+    return InputError({.file = options.document,
+                       .line = layer.common.line,
+                       .place = layer.common.key,
+                       .problem = fmt::format("brings the stack to {} decals", shader.decal_count),
+                       .remedy = std::move(remedy)});
+  };
+  if (shader.decal_count > most) throw fault(fmt::format("a shader in this language takes {}", most));
+  if (glsl && shader.beyond_es.empty() && shader.decal_count > most_decals_es)
+    shader.beyond_es =
+        fault(fmt::format("the code compiles as GLSL 450 alone, as ES takes {}", most_decals_es)).what();
 }
 
 } // namespace
