@@ -88,6 +88,18 @@ shadergen::FileFacts facts_of(const image::Image& image) {
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
+/// Refuses a file to be written that the scene was read from: `rock.json -o rock` would write rock.json.
+void check_is_no_input(const scene::Scene& scene, const std::filesystem::path& output) {
+  const auto check = [&](const std::filesystem::path& input) {
+    std::error_code ignored; // what does not exist yet, or is built in, is no other file
+    if (std::filesystem::equivalent(input, output, ignored))
+      throw InputError(
+          {.file = output, .problem = "would replace a file of the scene", .remedy = "give -o another name"});
+  };
+  check(scene.source);
+  for (const auto& [file, image] : scene.images) check(file);
+}
+
 void run(const ShaderCommand& command) {
   const std::filesystem::path output = command.output;
   std::filesystem::path beside = output;
@@ -103,6 +115,8 @@ void run(const ShaderCommand& command) {
     source.scene = command.scene;
     return open_scene(source, console.report());
   }();
+  check_is_no_input(scene, output);
+  check_is_no_input(scene, beside);
   const scene::Material& material = material_of(scene, command);
   shadergen::Options job = command.job;
   job.language = language_of(command.target);
@@ -122,8 +136,13 @@ void run(const ShaderCommand& command) {
   {
     const Unbroken whole_files;
     stop_if_interrupted();
-    io::write_file(beside, bytes_of(manifest));
-    io::write_file(output, bytes_of(shader.source));
+    io::OutputFile code(output), bindings(beside);
+    code.write(bytes_of(shader.source));
+    bindings.write(bytes_of(manifest));
+    code.finish();
+    bindings.finish();
+    code.commit();
+    bindings.commit();
   }
   if (!shader.beyond_es.empty()) console.warn(shader.beyond_es);
   const auto lines = std::count(shader.source.begin(), shader.source.end(), '\n');
@@ -143,6 +162,15 @@ void run(const ShaderCommand& command) {
   console.say(fmt::format("wrote {} ({} lines: {}_normal; {} textures, {} parameters) and {}",
                           output.string(), lines, shader.name, shader.textures.size(),
                           shader.parameters.size(), beside.string()));
+}
+
+/// Standard output has no place for the second file.
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        return text == "-" ? "two files are written: give the name of one" : "";
+      },
+      "");
 }
 
 CLI::Validator identifier() {
@@ -180,6 +208,7 @@ void add_shader_command(CLI::App& program) {
   verb.add_option("-o,--output", command->output, "file to write; FILE.json is written beside it")
       ->required()
       ->check(not_empty())
+      ->check(file_name())
       ->type_name("FILE");
   const std::map<std::string, Target> targets{{"glsl", Target::glsl},
                                               {"glsl_es", Target::glsl_es},

@@ -1,6 +1,7 @@
 // surfgrad shader, and the commands of its page.
 
 #include "cli/program.hpp"
+#include "support/file_size_limit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -157,6 +158,60 @@ TEST(Shader, WhatOnlyOneGLSLTakesIsWarnedOf) {
       run_program({"shader", "many.json", "--lang", "hlsl", "-o", "a.hlsl", "--json"}, folder.path());
   EXPECT_EQ(hlsl.error, "");
   EXPECT_TRUE(nlohmann::json::parse(hlsl.out)["warnings"].empty());
+}
+
+TEST(Shader, BothFilesAreReplacedOrNone) {
+  const Folder folder;
+  ASSERT_EQ(run_program({"shader", "--lang", "hlsl", "-o", "a"}, folder.path()).status, 0);
+  const auto size = [&](const char* file) { return std::filesystem::file_size(folder.path() / file); };
+  const std::uintmax_t code = size("a"), bindings = size("a.json");
+  ASSERT_NE(code, bindings);
+  // Room for one of the two, whichever is written first; for neither; and for both.
+  const auto run_with_room_for = [&](std::uintmax_t bytes) {
+    folder.write("a", "old code");
+    folder.write("a.json", "old bindings");
+    const test::FileSizeLimit limit(bytes);
+    return run_program({"shader", "--lang", "hlsl", "-o", "a", "-q"}, folder.path());
+  };
+  for (const std::uintmax_t room : {(code + bindings) / 2, std::uintmax_t{100}}) {
+    const Outcome run = run_with_room_for(room);
+    EXPECT_EQ(run.status, 3) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("write"));
+    EXPECT_EQ(text_of(folder.path() / "a"), "old code");
+    EXPECT_EQ(text_of(folder.path() / "a.json"), "old bindings");
+    EXPECT_THAT(folder.files(), ElementsAre("a", "a.json"));
+  }
+  EXPECT_EQ(run_with_room_for(2 * (code + bindings)).status, 0);
+  EXPECT_EQ(size("a"), code);
+  EXPECT_EQ(size("a.json"), bindings);
+}
+
+TEST(Shader, NoInputIsReplacedAndNoFolder) {
+  const Folder folder;
+  const std::string stack =
+      R"({ "surfgrad": 1, "mesh": "a.obj", "layers": [ { "type": "normal_map", "map": "n.png" } ] })";
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  folder.write("n.png", text_of(SURFGRAD_SOURCE_DIR "/docs/images/demo.png"));
+  folder.write("rock.json", stack);
+  std::filesystem::create_directory(folder.path() / "sub");
+  std::filesystem::create_directory(folder.path() / "b.json");
+  const std::vector<std::string> before = folder.files();
+  const auto refusal = [&](const char* output) {
+    const Outcome run = run_program({"shader", "rock.json", "--lang", "glsl", "-o", output}, folder.path());
+    EXPECT_EQ(run.status, 1) << output;
+    return run.error;
+  };
+  EXPECT_THAT(refusal("rock"),
+              HasSubstr("rock.json: would replace a file of the scene; give -o another name"));
+  EXPECT_THAT(refusal("sub/../rock.json"), HasSubstr("would replace a file of the scene"));
+  EXPECT_THAT(refusal("n.png"), HasSubstr("n.png: would replace a file of the scene"));
+  EXPECT_THAT(refusal("sub"), HasSubstr("sub: is a folder"));
+  EXPECT_THAT(refusal("b"), HasSubstr("b.json: is a folder"));
+  const Outcome dash = run_program({"shader", "rock.json", "--lang", "glsl", "-o", "-"}, folder.path());
+  EXPECT_EQ(dash.status, 2);
+  EXPECT_THAT(dash.error, HasSubstr("two files are written"));
+  EXPECT_EQ(folder.files(), before);
+  EXPECT_EQ(text_of(folder.path() / "rock.json"), stack);
 }
 
 TEST(Shader, UsageMistakes) {
