@@ -223,6 +223,8 @@ void add_shader_command(CLI::App& program) {
       ->type_name("NAME")
       ->option_text("NAME");
   verb.add_flag("--standalone", command->job.standalone, "write the library functions that are used, too");
+  verb.add_flag("--roughness", command->job.roughness,
+                "take the surface's roughness, too, and give it with the slopes that distance hides");
   verb.add_option("--name", command->job.name, "begins every name in the code")
       ->capture_default_str()
       ->check(identifier())

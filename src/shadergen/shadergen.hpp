@@ -61,6 +61,10 @@ struct Options {
   TextureOrigin origin = TextureOrigin::lower_left;
   /// StackResult has base_normal and degenerate, too: what engine::Composition has.
   bool diagnostics = false;
+  /// hardware: StackSurface has the roughness of the surface between the bumps, StackResult what minification
+  /// makes of it. Maps of three channels and of filters with mip levels contribute, by how much shorter their
+  /// filtered normals are; of all others nothing is known.
+  bool roughness = false;
   int march_steps = 64;  ///< hardware: of the linear search of a parallax
   int first_binding = 0; ///< hardware: the first number of every kind of binding that the language counts
   int group = 0;         ///< hardware: WGSL's group, HLSL's space (from 1 on: shader model 5.1), Vulkan's set
@@ -139,6 +143,7 @@ struct SurfaceMember {
     dn_dy,                ///< vec3: change of `normal` per pixel
     relative_from_screen, ///< mat4: takes (x, y, depth, 1) in pixels to the space of `position`, before the
                           ///< division by w; zero where the raster is no screen
+    roughness, ///< float, Options::roughness only: perceptual, the root of GGX's or Beckmann's alpha
   };
   Role role = Role::normal;
   std::string type{}; ///< in the language's spelling

@@ -70,6 +70,17 @@ TEST(Shader, TheOriginOfTextures) {
   EXPECT_FALSE(flips({"--lang", "hlsl", "--origin", "lower_left"}));
 }
 
+TEST(Shader, RoughnessWhereAsked) {
+  const Folder folder;
+  for (const bool asked : {false, true}) {
+    std::vector<std::string> arguments{"shader", "--lang", "godot", "-o", "a"};
+    if (asked) arguments.push_back("--roughness");
+    EXPECT_EQ(run_program(arguments, folder.path()).status, 0);
+    EXPECT_EQ(text_of(folder.path() / "a").find("roughness") != std::string::npos, asked);
+    EXPECT_EQ(text_of(folder.path() / "a.json").find("\"roughness\"") != std::string::npos, asked);
+  }
+}
+
 TEST(Shader, BindingsBeginWhereAsked) {
   const Folder folder;
   const Outcome run = run_program(

@@ -181,6 +181,32 @@ TEST(Compile, EveryKindWithTheLibrary) {
 
 TEST(Compile, EveryKindInGodot) { expect_godot(every_kind(), {}); }
 
+TEST(Compile, AsItStandsWithItsInclude) {
+  const NamedStack stack = two_passes();
+  const Shader glsl = generate(stack.layers, options_of(stack, Language::glsl));
+  ASSERT_NE(glsl.source.find("#include \"surfgrad.glsl\""), std::string::npos);
+  const std::string extension = "#extension GL_GOOGLE_include_directive : require\n";
+  expect_accepted(surfgrad::test::compile_glsl_with_includes("#version 450\n#define SURFGRAD_FRAGMENT\n" +
+                                                                 extension + glsl.source +
+                                                                 main_of_glsl({glsl}, false),
+                                                             "frag"),
+                  "GLSL " + stack.name);
+  const Shader hlsl = generate(stack.layers, options_of(stack, Language::hlsl));
+  ASSERT_NE(hlsl.source.find("#include \"surfgrad.hlsl\""), std::string::npos);
+  expect_accepted(
+      surfgrad::test::compile_hlsl(
+          hlsl.source + "float4 main() : SV_Target { return float4(0.0, 0.0, 0.0, 0.0); }\n", "frag"),
+      "HLSL " + stack.name);
+}
+
+TEST(Compile, EveryKindWithRoughness) {
+  const Options options{.roughness = true};
+  expect_glsl(every_kind(), options);
+  expect_hlsl(every_kind(), options);
+  expect_wgsl(every_kind(), options);
+  expect_godot(every_kind(), options);
+}
+
 TEST(Compile, EveryKindStandalone) {
   for (const NamedStack& stack : every_kind()) {
     Options options = options_of(stack, Language::glsl);
