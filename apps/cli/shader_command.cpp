@@ -195,7 +195,9 @@ void add_shader_command(CLI::App& program) {
       "offsets. Scale, opacity, tiling and the like are uniforms; what a stack leaves at its default is "
       "none.\n"
       "The code includes surfgrad.glsl, .hlsl or .wgsl; --standalone writes the functions it uses "
-      "instead.\n\n"
+      "instead.\n"
+      "Files with other names, first bindings or groups stand in one program, standalone ones too (not "
+      "WGSL's).\n\n"
       "Texture coordinates begin at the lower left in GLSL and at the upper left elsewhere, unless --origin\n"
       "says otherwise (Unity: lower_left; glTF in three.js: upper_left).\n\n"
       "Examples:\n"
@@ -216,8 +218,8 @@ void add_shader_command(CLI::App& program) {
                                               {"wgsl", Target::wgsl},
                                               {"godot", Target::godot}};
   verb.add_option("--lang", command->target,
-                  "glsl (450; ES 3.00 unless a warning says not), glsl_es (the same code, refused where it\n"
-                  "is none of ES 3.00's), hlsl (shader model 5), wgsl or godot (4.5)")
+                  "glsl (450 and ES 3.00), glsl_es (the same, sure to be ES 3.00's), hlsl (shader model 5),\n"
+                  "wgsl or godot (4.5)")
       ->required()
       ->transform(one_of(targets))
       ->type_name("NAME")
@@ -242,14 +244,14 @@ void add_shader_command(CLI::App& program) {
   CLI::Option* const first = verb.add_option("--first-binding", command->job.first_binding,
                                              "number of the first binding: in HLSL of each kind of register")
                                  ->capture_default_str()
-                                 ->check(CLI::Range(0, most_bindings))
+                                 ->check(CLI::Range(0, most_bindings).description(""))
                                  ->type_name("N");
   CLI::Option* const group =
       verb.add_option("--group", command->job.group, "WGSL's group, HLSL's space, in Vulkan's GLSL the set")
           ->capture_default_str()
-          ->check(CLI::Range(0, most_groups))
+          ->check(CLI::Range(0, most_groups).description(""))
           ->type_name("N");
-  verb.add_flag("-q,--quiet", command->quiet, "no summary (but --json)");
+  verb.add_flag("-q,--quiet", command->quiet, "no warnings or summary (but --json)");
   verb.add_flag("--json", command->json, "summary as one line of JSON, even with --quiet");
   verb.callback([command, first, group] {
     if (command->target == Target::godot && (!first->empty() || !group->empty()))
