@@ -19,10 +19,29 @@
 namespace surfgrad::cli {
 namespace {
 
+/// What the code is for: the languages, and GLSL twice.
+enum class Target { glsl, glsl_es, hlsl, wgsl, godot };
+
+shadergen::Language language_of(Target target) {
+  switch (target) {
+  case Target::hlsl:
+    return shadergen::Language::hlsl;
+  case Target::wgsl:
+    return shadergen::Language::wgsl;
+  case Target::godot:
+    return shadergen::Language::godot;
+  case Target::glsl:
+  case Target::glsl_es:
+    break;
+  }
+  return shadergen::Language::glsl;
+}
+
 struct ShaderCommand {
   std::string scene; // empty: the built-in demo
   std::string output;
   std::string material;
+  Target target = Target::glsl;
   shadergen::Options job;
   std::optional<TextureOrigin> origin;
   bool quiet = false;
@@ -69,6 +88,18 @@ shadergen::FileFacts facts_of(const image::Image& image) {
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
+/// Refuses a file to be written that the scene was read from: `rock.json -o rock` would write rock.json.
+void check_is_no_input(const scene::Scene& scene, const std::filesystem::path& output) {
+  const auto check = [&](const std::filesystem::path& input) {
+    std::error_code ignored; // what does not exist yet, or is built in, is no other file
+    if (std::filesystem::equivalent(input, output, ignored))
+      throw InputError(
+          {.file = output, .problem = "would replace a file of the scene", .remedy = "give -o another name"});
+  };
+  check(scene.source);
+  for (const auto& [file, image] : scene.images) check(file);
+}
+
 void run(const ShaderCommand& command) {
   const std::filesystem::path output = command.output;
   std::filesystem::path beside = output;
@@ -84,8 +115,12 @@ void run(const ShaderCommand& command) {
     source.scene = command.scene;
     return open_scene(source, console.report());
   }();
+  check_is_no_input(scene, output);
+  check_is_no_input(scene, beside);
   const scene::Material& material = material_of(scene, command);
   shadergen::Options job = command.job;
+  job.language = language_of(command.target);
+  job.es = command.target == Target::glsl_es;
   job.back_faces = material.back_faces;
   job.origin = command.origin.value_or(usual_origin(job.language));
   job.displace = scene.displace ? &*scene.displace : nullptr;
@@ -101,23 +136,41 @@ void run(const ShaderCommand& command) {
   {
     const Unbroken whole_files;
     stop_if_interrupted();
-    io::write_file(beside, bytes_of(manifest));
-    io::write_file(output, bytes_of(shader.source));
+    io::OutputFile code(output), bindings(beside);
+    code.write(bytes_of(shader.source));
+    bindings.write(bytes_of(manifest));
+    code.finish();
+    bindings.finish();
+    code.commit();
+    bindings.commit();
   }
+  if (!shader.beyond_es.empty()) console.warn(shader.beyond_es);
   const auto lines = std::count(shader.source.begin(), shader.source.end(), '\n');
   if (command.json) {
+    nlohmann::json warnings = nlohmann::json::array();
+    if (!shader.beyond_es.empty()) warnings.push_back(shader.beyond_es);
     console.say_json({{"output", output.string()},
                       {"bindings", beside.string()},
                       {"function", shader.name + "_normal"},
                       {"lines", lines},
                       {"textures", shader.textures.size()},
                       {"parameters", shader.parameters.size()},
-                      {"decals", shader.decal_count}});
+                      {"decals", shader.decal_count},
+                      {"warnings", warnings}});
     return;
   }
   console.say(fmt::format("wrote {} ({} lines: {}_normal; {} textures, {} parameters) and {}",
                           output.string(), lines, shader.name, shader.textures.size(),
                           shader.parameters.size(), beside.string()));
+}
+
+/// Standard output has no place for the second file.
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        return text == "-" ? "two files are written: give the name of one" : "";
+      },
+      "");
 }
 
 CLI::Validator identifier() {
@@ -142,7 +195,9 @@ void add_shader_command(CLI::App& program) {
       "offsets. Scale, opacity, tiling and the like are uniforms; what a stack leaves at its default is "
       "none.\n"
       "The code includes surfgrad.glsl, .hlsl or .wgsl; --standalone writes the functions it uses "
-      "instead.\n\n"
+      "instead.\n"
+      "Files with other names, first bindings or groups stand in one program, standalone ones too (not "
+      "WGSL's).\n\n"
       "Texture coordinates begin at the lower left in GLSL and at the upper left elsewhere, unless --origin\n"
       "says otherwise (Unity: lower_left; glTF in three.js: upper_left).\n\n"
       "Examples:\n"
@@ -155,18 +210,23 @@ void add_shader_command(CLI::App& program) {
   verb.add_option("-o,--output", command->output, "file to write; FILE.json is written beside it")
       ->required()
       ->check(not_empty())
+      ->check(file_name())
       ->type_name("FILE");
-  const std::map<std::string, shadergen::Language> languages{{"glsl", shadergen::Language::glsl},
-                                                             {"hlsl", shadergen::Language::hlsl},
-                                                             {"wgsl", shadergen::Language::wgsl},
-                                                             {"godot", shadergen::Language::godot}};
-  verb.add_option("--lang", command->job.language,
-                  "glsl (450 and ES 3.00), hlsl (shader model 5), wgsl or godot (4.5)")
+  const std::map<std::string, Target> targets{{"glsl", Target::glsl},
+                                              {"glsl_es", Target::glsl_es},
+                                              {"hlsl", Target::hlsl},
+                                              {"wgsl", Target::wgsl},
+                                              {"godot", Target::godot}};
+  verb.add_option("--lang", command->target,
+                  "glsl (450 and ES 3.00), glsl_es (the same, sure to be ES 3.00's), hlsl (shader model 5),\n"
+                  "wgsl or godot (4.5)")
       ->required()
-      ->transform(one_of(languages))
+      ->transform(one_of(targets))
       ->type_name("NAME")
       ->option_text("NAME");
   verb.add_flag("--standalone", command->job.standalone, "write the library functions that are used, too");
+  verb.add_flag("--roughness", command->job.roughness,
+                "take the surface's roughness, too, and give it with the slopes that distance hides");
   verb.add_option("--name", command->job.name, "begins every name in the code")
       ->capture_default_str()
       ->check(identifier())
@@ -180,9 +240,24 @@ void add_shader_command(CLI::App& program) {
       ->transform(one_of(origins))
       ->type_name("NAME")
       ->option_text("NAME");
-  verb.add_flag("-q,--quiet", command->quiet, "no summary (but --json)");
+  constexpr int most_bindings = 999, most_groups = 31; // WebGPU's largest binding; groups beyond any device's
+  CLI::Option* const first = verb.add_option("--first-binding", command->job.first_binding,
+                                             "number of the first binding: in HLSL of each kind of register")
+                                 ->capture_default_str()
+                                 ->check(CLI::Range(0, most_bindings).description(""))
+                                 ->type_name("N");
+  CLI::Option* const group =
+      verb.add_option("--group", command->job.group, "WGSL's group, HLSL's space, in Vulkan's GLSL the set")
+          ->capture_default_str()
+          ->check(CLI::Range(0, most_groups).description(""))
+          ->type_name("N");
+  verb.add_flag("-q,--quiet", command->quiet, "no warnings or summary (but --json)");
   verb.add_flag("--json", command->json, "summary as one line of JSON, even with --quiet");
-  verb.callback([command] { run(*command); });
+  verb.callback([command, first, group] {
+    if (command->target == Target::godot && (!first->empty() || !group->empty()))
+      throw CLI::ValidationError(first->empty() ? "--group" : "--first-binding", "Godot numbers no bindings");
+    run(*command);
+  });
 }
 
 } // namespace surfgrad::cli

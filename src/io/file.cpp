@@ -134,10 +134,14 @@ void OutputFile::seek(std::uint64_t position) {
   position_ = position;
 }
 
-void OutputFile::commit() {
+void OutputFile::finish() {
   // A full disk may show only when the last buffered bytes go out.
   if (std::fflush(stream_.get()) != 0) cannot_write(target_, "write", errno);
   if (std::fclose(stream_.release()) != 0) cannot_write(target_, "write", errno);
+}
+
+void OutputFile::commit() {
+  if (stream_) finish();
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) cannot_write(target_, "move the finished file into place", error.value());

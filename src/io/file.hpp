@@ -30,12 +30,15 @@ class OutputFile : public ByteSink {
   ~OutputFile() override;
 
   /// Throws MachineError where the file system fails, e.g. a full disk; the file is then good for
-  /// nothing but its end. So do seek() and commit().
+  /// nothing but its end. So do seek(), finish() and commit().
   void write(std::span<const std::byte> bytes) override;
   void seek(std::uint64_t position) override;
   [[nodiscard]] std::uint64_t position() const override { return position_; }
 
-  /// Once, after the last write.
+  /// After the last write: what is left goes out. All that can fail for want of room fails here, so that
+  /// several files that belong together are all finished before the first is committed.
+  void finish();
+  /// Once, after the last write: finishes the file and moves it into place.
   void commit();
 
  private:

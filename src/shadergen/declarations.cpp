@@ -42,6 +42,52 @@ std::string member_lines(const Shader& shader) {
   return lines;
 }
 
+std::string glsl_bindings(const Shader& shader) {
+  std::string text = "// OpenGL ES gives its bindings in the program; other numbers: define these before.\n"
+                     "#ifndef SURFGRAD_BINDING\n"
+                     "#ifdef GL_ES\n"
+                     "#define SURFGRAD_BINDING(n)\n"
+                     "#define SURFGRAD_TEXTURE(n) uniform highp\n"
+                     "#else\n"
+                     "#define SURFGRAD_BINDING(n) , binding = n\n"
+                     "#define SURFGRAD_TEXTURE(n) layout(binding = n) uniform\n"
+                     "#endif\n"
+                     "#endif\n\n";
+  const auto number = [&](int binding) {
+    return shader.group > 0 ? fmt::format("SURFGRAD_BINDING_IN({}, {})", shader.group, binding)
+                            : fmt::format("SURFGRAD_BINDING({})", binding);
+  };
+  const auto texture = [&](int binding) {
+    return shader.group > 0 ? fmt::format("SURFGRAD_TEXTURE_IN({}, {})", shader.group, binding)
+                            : fmt::format("SURFGRAD_TEXTURE({})", binding);
+  };
+  if (shader.group > 0)
+    text += "// Only Vulkan has sets.\n"
+            "#ifndef SURFGRAD_BINDING_IN\n"
+            "#ifdef VULKAN\n"
+            "#define SURFGRAD_BINDING_IN(g, n) , set = g, binding = n\n"
+            "#define SURFGRAD_TEXTURE_IN(g, n) layout(set = g, binding = n) uniform\n"
+            "#else\n"
+            "#define SURFGRAD_BINDING_IN(g, n) SURFGRAD_BINDING(n)\n"
+            "#define SURFGRAD_TEXTURE_IN(g, n) SURFGRAD_TEXTURE(n)\n"
+            "#endif\n"
+            "#endif\n\n";
+  if (!shader.parameters.empty())
+    text += fmt::format("layout(std140 {}) uniform StackParameters {{\n{}}} stack_parameters;\n\n",
+                        number(shader.parameters_binding), member_lines(shader));
+  if (shader.decal_count > 0 && shader.decals_in_block)
+    text += fmt::format("layout(std140 {}) uniform StackDecals {{ vec4 stack_decal_data[{}]; }};\n",
+                        number(shader.decals_binding), vec4s_a_decal * shader.decal_count);
+  if (shader.decal_count > 0 && !shader.decals_in_block)
+    text += fmt::format("#ifdef GL_ES\n#error \"This stack has {} decals; GLSL ES takes {}.\"\n#endif\n"
+                        "layout(std430 {}) readonly buffer StackDecals {{ vec4 stack_decal_data[]; }};\n",
+                        shader.decal_count, most_decals_es, number(shader.decals_binding));
+  for (const TextureBinding& t : shader.textures)
+    text += fmt::format("{} {} {};\n", texture(t.binding),
+                        t.kind == MapKind::cube ? "samplerCube" : "sampler2D", t.name);
+  return text;
+}
+
 std::string glsl(const Shader& shader, const Options& options) {
   std::string text;
   if (options.access == TextureAccess::exact) {
@@ -58,32 +104,7 @@ std::string glsl(const Shader& shader, const Options& options) {
                           "stack_maps[]; }};\n\n",
                           ExactLayout::maps);
   } else {
-    text += "// OpenGL ES gives its bindings in the program; other numbers: define these before.\n"
-            "#ifndef SURFGRAD_BINDING\n"
-            "#ifdef GL_ES\n"
-            "#define SURFGRAD_BINDING(n)\n"
-            "#define SURFGRAD_TEXTURE(n) uniform highp\n"
-            "#else\n"
-            "#define SURFGRAD_BINDING(n) , binding = n\n"
-            "#define SURFGRAD_TEXTURE(n) layout(binding = n) uniform\n"
-            "#endif\n"
-            "#endif\n\n";
-    if (!shader.parameters.empty())
-      text += fmt::format(
-          "layout(std140 SURFGRAD_BINDING({})) uniform StackParameters {{\n{}}} stack_parameters;\n\n",
-          shader.parameters_binding, member_lines(shader));
-    if (shader.decal_count > 0 && shader.decals_in_block)
-      text += fmt::format(
-          "layout(std140 SURFGRAD_BINDING({})) uniform StackDecals {{ vec4 stack_decal_data[{}]; }};\n",
-          shader.decals_binding, vec4s_a_decal * shader.decal_count);
-    if (shader.decal_count > 0 && !shader.decals_in_block)
-      text += fmt::format(
-          "#ifdef GL_ES\n#error \"This stack has {} decals; GLSL ES takes {}.\"\n#endif\n"
-          "layout(std430 SURFGRAD_BINDING({})) readonly buffer StackDecals {{ vec4 stack_decal_data[]; }};\n",
-          shader.decal_count, most_decals_es, shader.decals_binding);
-    for (const TextureBinding& t : shader.textures)
-      text += fmt::format("SURFGRAD_TEXTURE({}) {} {};\n", t.binding,
-                          t.kind == MapKind::cube ? "samplerCube" : "sampler2D", t.name);
+    text += glsl_bindings(shader);
   }
   if (shader.decal_count > 0) text += "vec4 stack_decals(int i) { return stack_decal_data[i]; }\n";
   return text + "\n";
@@ -91,22 +112,26 @@ std::string glsl(const Shader& shader, const Options& options) {
 
 std::string hlsl(const Shader& shader, std::string_view code) {
   std::string text;
+  const auto at = [&](char kind, int number) {
+    return shader.group > 0 ? fmt::format("register({}{}, space{})", kind, number, shader.group)
+                            : fmt::format("register({}{})", kind, number);
+  };
   if (!shader.parameters.empty())
     text += fmt::format("struct StackParameters {{\n{}}};\n"
-                        "cbuffer StackBlock : register(b{}) {{ StackParameters stack_parameters; }};\n\n",
-                        member_lines(shader), shader.parameters_binding);
+                        "cbuffer StackBlock : {} {{ StackParameters stack_parameters; }};\n\n",
+                        member_lines(shader), at('b', shader.parameters_binding));
   if (shader.decal_count > 0)
-    text += fmt::format("StructuredBuffer<float4> stack_decal_data : register(t{});\n"
+    text += fmt::format("StructuredBuffer<float4> stack_decal_data : {};\n"
                         "float4 stack_decals(int i) {{ return stack_decal_data[i]; }}\n",
-                        shader.decals_binding);
+                        at('t', shader.decals_binding));
   std::map<int, std::string> samplers;
   for (const TextureBinding& t : shader.textures) {
-    text += fmt::format("{}<float4> {} : register(t{});\n",
-                        t.kind == MapKind::cube ? "TextureCube" : "Texture2D", t.name, t.binding);
+    text += fmt::format("{}<float4> {} : {};\n", t.kind == MapKind::cube ? "TextureCube" : "Texture2D",
+                        t.name, at('t', t.binding));
     samplers[t.sampler_binding] = t.sampler;
   }
   for (const auto& [binding, name] : samplers)
-    text += fmt::format("SamplerState {} : register(s{});\n", name, binding);
+    text += fmt::format("SamplerState {} : {};\n", name, at('s', binding));
   if (code.find("stack_texture_size(") != std::string_view::npos)
     text += "\nfloat2 stack_texture_size(Texture2D<float4> map) {\n"
             "  uint width, height;\n"
@@ -118,22 +143,23 @@ std::string hlsl(const Shader& shader, std::string_view code) {
 
 std::string wgsl(const Shader& shader) {
   std::string text;
+  const auto at = [&](int binding) { return fmt::format("@group({}) @binding({})", shader.group, binding); };
   if (!shader.parameters.empty())
     text += fmt::format("struct StackParameters {{\n{}}}\n"
-                        "@group(0) @binding({}) var<uniform> stack_parameters: StackParameters;\n\n",
-                        member_lines(shader), shader.parameters_binding);
+                        "{} var<uniform> stack_parameters: StackParameters;\n\n",
+                        member_lines(shader), at(shader.parameters_binding));
   if (shader.decal_count > 0)
-    text += fmt::format("@group(0) @binding({}) var<storage, read> stack_decal_data: array<vec4f>;\n"
+    text += fmt::format("{} var<storage, read> stack_decal_data: array<vec4f>;\n"
                         "fn stack_decals(i: i32) -> vec4f {{ return stack_decal_data[i]; }}\n",
-                        shader.decals_binding);
+                        at(shader.decals_binding));
   std::map<int, std::string> samplers;
   for (const TextureBinding& t : shader.textures) {
-    text += fmt::format("@group(0) @binding({}) var {}: texture_{}<f32>;\n", t.binding, t.name,
+    text += fmt::format("{} var {}: texture_{}<f32>;\n", at(t.binding), t.name,
                         t.kind == MapKind::cube ? "cube" : "2d");
     samplers[t.sampler_binding] = t.sampler;
   }
   for (const auto& [binding, name] : samplers)
-    text += fmt::format("@group(0) @binding({}) var {}: sampler;\n", binding, name);
+    text += fmt::format("{} var {}: sampler;\n", at(binding), name);
   return text + "\n";
 }
 
@@ -180,6 +206,34 @@ std::string godot(const Shader& shader) {
     text += fmt::format("uniform {} {} : {};\n", t.kind == MapKind::cube ? "samplerCube" : "sampler2D",
                         t.name, godot_hints(t));
   return text + "\n";
+}
+
+/// Registers of shader model 5.0 end; in a space of its own, which is 5.1's, a stack has any number.
+void check_registers(const Shader& shader, const Options& options) {
+  constexpr int buffers = 14, textures = 128, samplers = 16; // D3D11_COMMONSHADER_*_COUNT
+  if (shader.language != Language::hlsl || shader.group > 0) return;
+  const std::string remedy = "begin lower, or in a space from 1 on";
+  const auto check = [&](const char* what, char kind, int number, int count) {
+    if (number >= count)
+      throw InputError({.file = options.document,
+                        .problem = fmt::format("{} would be register {}{}; shader model 5.0 has {}0 to {}{}",
+                                               what, kind, number, kind, kind, count - 1),
+                        .remedy = remedy});
+  };
+  if (!shader.parameters.empty()) check("the block of parameters", 'b', shader.parameters_binding, buffers);
+  if (shader.decal_count > 0) check("the buffer of decals", 't', shader.decals_binding, textures);
+  for (const TextureBinding& t : shader.textures) {
+    if (t.binding >= textures)
+      refuse(
+          t, options,
+          fmt::format("has a texture at register t{}; shader model 5.0 ends at t{}", t.binding, textures - 1),
+          remedy);
+    if (t.sampler_binding >= samplers)
+      refuse(t, options,
+             fmt::format("has a sampler at register s{}; shader model 5.0 ends at s{}", t.sampler_binding,
+                         samplers - 1),
+             remedy);
+  }
 }
 
 } // namespace
@@ -232,7 +286,9 @@ void number_bindings(Shader& shader, const Options& options) {
   shader.decals_in_block = shader.language == Language::godot ||
                            (shader.language == Language::glsl && shader.decal_count <= most_decals_es);
   const bool one_namespace = shader.language == Language::glsl || shader.language == Language::wgsl;
-  int next = one_namespace && !shader.parameters.empty() ? 1 : 0;
+  if (shader.language != Language::godot) shader.group = options.group;
+  shader.parameters_binding = options.first_binding;
+  int next = options.first_binding + (one_namespace && !shader.parameters.empty() ? 1 : 0);
   if (shader.decal_count > 0) shader.decals_binding = next++;
   std::map<decltype(state_of(TextureBinding{})), int> samplers;
   const bool separate = shader.language == Language::hlsl || shader.language == Language::wgsl;
@@ -246,10 +302,11 @@ void number_bindings(Shader& shader, const Options& options) {
              fmt::format("brings the stack to more than {} kinds of wrapping and filtering", most_samplers),
              "a shader in this language takes no more");
     t.sampler = fmt::format("stack_sampler{}", number);
-    t.sampler_binding = number;
+    t.sampler_binding = number + (shader.language == Language::hlsl ? options.first_binding : 0);
   }
   if (shader.language == Language::wgsl)
     for (TextureBinding& t : shader.textures) t.sampler_binding += next;
+  check_registers(shader, options);
   if (shader.language == Language::godot)
     for (const TextureBinding& t : shader.textures) {
       const bool mirrored = t.wrap_s == stack::Wrap::mirror || t.wrap_t == stack::Wrap::mirror;

@@ -1,6 +1,7 @@
 #include "shadergen/generator.hpp"
 
 #include "shadergen/parameters.hpp"
+#include "shadergen/tokens.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -39,7 +40,8 @@ constexpr Member members[] = {{Role::position, "vec3", "position"},
                               {Role::raster, "vec2", "raster"},
                               {Role::dn_dx, "vec3", "dn_dx"},
                               {Role::dn_dy, "vec3", "dn_dy"},
-                              {Role::relative_from_screen, "mat4", "relative_from_screen", true}};
+                              {Role::relative_from_screen, "mat4", "relative_from_screen", true},
+                              {Role::roughness, "float", "roughness"}};
 
 SurfaceMember member_of(Role role, int uv) {
   const Member& m = *std::find_if(std::begin(members), std::end(members),
@@ -83,6 +85,33 @@ std::string Generator::function(const std::string& name, const std::string& text
   code.replace(code.find('@'), 1, own);
   functions_ += code + "\n";
   return function_of_text_[text] = own;
+}
+
+std::string Generator::body(const std::string& rest) const {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < body_.size();) {
+    const std::size_t end = body_.find('\n', begin) + 1;
+    lines.push_back(body_.substr(begin, end - begin));
+    begin = end;
+  }
+  std::map<std::string, int, std::less<>> counts;
+  const auto count_words = [&](const std::string& text, int sign) {
+    for (const Token& t : tokens_of(text))
+      if (t.kind == Token::Kind::word) counts[std::string(t.text)] += sign;
+  };
+  count_words(body_ + rest, 1);
+  // Values read only earlier ones: from the last on, each knows who is left to read it.
+  for (std::size_t i = lines.size(); i-- > 0;) {
+    const std::vector<Token> tokens = tokens_of(lines[i]);
+    const bool declares = tokens.size() > 5 && tokens[1].kind == Token::Kind::word &&
+                          tokens[3].kind == Token::Kind::word && tokens[5].text == "=";
+    if (!declares || counts.at(std::string(tokens[3].text)) > 1) continue;
+    count_words(lines[i], -1);
+    lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  std::string text;
+  for (const std::string& line : lines) text += line;
+  return text;
 }
 
 std::string Generator::surface(Role role, int uv) {
@@ -166,8 +195,29 @@ std::string product_of(const std::string& weight, const std::string& scale, cons
 
 } // namespace
 
-void Generator::add(const std::string& weight, const std::string& scale, bool mix, const std::string& g) {
+// Variances of independent slopes add up, each by the square of what scales its slopes.
+void Generator::add_variance(const std::string& weight, const std::string& scale, bool mix,
+                             const std::string& variance) {
+  const bool yields = mix && !variance_.empty();
+  if (variance.empty() && !yields) return;
+  std::string all = yields ? fmt::format("stack_square(1.0 - {}) * {}", weight, variance_) : variance_;
+  if (!variance.empty())
+    all += fmt::format("{}stack_square({}{}{}) * {}", all.empty() ? "" : " + ", weight,
+                       scale.empty() ? "" : " * ", scale, variance);
+  set_variance(all);
+}
+
+std::string Generator::widened_roughness() {
+  const std::string roughness = surface(Role::roughness);
+  const std::string both = earlier_variance_.empty() || variance_.empty() ? "" : " + ";
+  const std::string all = earlier_variance_ + both + variance_;
+  return all.empty() ? roughness : fmt::format("stack_widened({}, {})", roughness, all);
+}
+
+void Generator::add(const std::string& weight, const std::string& scale, bool mix, const std::string& g,
+                    const std::string& variance) {
   flush_slopes();
+  add_variance(weight, scale, mix, variance);
   const std::string scaled = product_of(weight, scale, g);
   if (sum_.empty())
     set_sum(scaled);
@@ -178,14 +228,15 @@ void Generator::add(const std::string& weight, const std::string& scale, bool mi
 }
 
 void Generator::add_slope(const std::string& weight, const std::string& scale, bool mix,
-                          const std::string& basis, const std::string& slope) {
+                          const std::string& basis, const std::string& slope, const std::string& variance) {
   const std::string scaled = product_of(weight, scale, slope);
   if (mix && (!sum_.empty() || !slopes_.basis.empty())) {
-    const std::string own = value("slope", "vec2", slope);
-    add(weight, scale, mix,
-        fmt::format("surfgrad_from_tbn({}, {}.tangent, {}.bitangent)", own, basis, basis));
+    const std::string own = variance.empty() ? value("slope", "vec2", slope) : slope; // part of a value
+    add(weight, scale, mix, fmt::format("surfgrad_from_tbn({}, {}.tangent, {}.bitangent)", own, basis, basis),
+        variance);
     return;
   }
+  add_variance(weight, scale, false, variance);
   if (slopes_.basis == basis) {
     slopes_.slope = value("slope", "vec2", fmt::format("{} + {}", slopes_.slope, scaled));
     return;
@@ -218,6 +269,11 @@ std::string Generator::resolved() {
 void Generator::begin_pass(const std::string& frame, bool first) {
   frame_ = frame;
   first_pass_ = first;
+  if (!variance_.empty() && !earlier_variance_.empty())
+    earlier_variance_ = value("variance", "float", earlier_variance_ + " + " + variance_);
+  else if (!variance_.empty())
+    earlier_variance_ = variance_;
+  variance_.clear();
   sum_.clear();
   slopes_ = {};
 }

@@ -92,14 +92,22 @@ class Generator {
   [[nodiscard]] const std::string& frame() const { return frame_; }
   [[nodiscard]] bool first_pass() const { return first_pass_; }
   /// A surface gradient joins the sum. weight and scale are expressions; an empty scale is 1.
-  void add(const std::string& weight, const std::string& scale, bool mix, const std::string& surfgrad);
+  ///
+  /// variance  of the slopes along an axis that the map's filter hides; empty: none is known
+  void add(const std::string& weight, const std::string& scale, bool mix, const std::string& surfgrad,
+           const std::string& variance = "");
   /// The same for a slope in a tangent frame. Slopes in one frame are summed before they become vectors.
   void add_slope(const std::string& weight, const std::string& scale, bool mix, const std::string& basis,
-                 const std::string& slope);
+                 const std::string& slope, const std::string& variance = "");
   /// The sum so far as a value; empty while it is zero.
   [[nodiscard]] const std::string& sum();
   /// A new value of the sum.
   void set_sum(const std::string& expression);
+  /// Variance of the slopes along an axis that the pass hides so far; empty while it is zero.
+  [[nodiscard]] const std::string& variance() const { return variance_; }
+  void set_variance(const std::string& expression) { variance_ = value("variance", "float", expression); }
+  /// Options::roughness: that of the surface with all that is hidden.
+  [[nodiscard]] std::string widened_roughness();
   /// The normal that the sum makes.
   [[nodiscard]] std::string resolved();
   /// Opens a pass on a frame.
@@ -109,12 +117,15 @@ class Generator {
   /// The same, unless the condition has been told.
   void degenerate_once(const std::string& condition);
 
-  [[nodiscard]] const std::string& body() const { return body_; }
+  /// The lines without values that nothing reads. rest: what follows them in the function.
+  [[nodiscard]] std::string body(const std::string& rest) const;
   [[nodiscard]] const std::string& functions() const { return functions_; }
 
  private:
   void put(const std::string& text) { body_ += text; }
   void flush_slopes();
+  void add_variance(const std::string& weight, const std::string& scale, bool mix,
+                    const std::string& variance);
   [[nodiscard]] std::string parameter(const std::string& name, Parameter::Type type,
                                       const std::string& meaning, std::vector<double> value);
 
@@ -133,6 +144,8 @@ class Generator {
   std::string frame_ = "frame";
   bool first_pass_ = true;
   std::string sum_;
+  std::string variance_;         // of the pass
+  std::string earlier_variance_; // of the passes before
   struct Slopes {
     std::string basis, slope;
   };

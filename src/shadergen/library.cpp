@@ -2,6 +2,8 @@
 
 #include "shadergen/tokens.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <deque>
 
@@ -57,6 +59,16 @@ int components_of(Tokens expression, Tokens scope) {
       }
   }
   return components;
+}
+
+/// Types of parameters between brackets at `open` and `close`, each after a `_`.
+std::string parameter_types(Tokens tokens, std::size_t open, std::size_t close) {
+  std::string types;
+  for (std::size_t i = open; i < close; ++i)
+    if (tokens[i].text == "(" || tokens[i].text == ",")
+      if (const std::size_t type = significant(tokens, i + 1); type < close)
+        types.append("_").append(tokens[type].text);
+  return types;
 }
 
 std::string_view between(Tokens tokens, std::size_t from, std::size_t to) {
@@ -115,6 +127,7 @@ Library::Library(std::string_view text, Language language) {
         const std::size_t close = closing(tokens, end);
         if (language != Language::wgsl) {
           d.arguments = argument_count(tokens, end, close);
+          d.types = parameter_types(tokens, end, close);
           const std::string_view first = tokens[significant(tokens, end + 1)].text;
           d.components = first == "vec2" || first == "float2"   ? 2
                          : first == "vec3" || first == "float3" ? 3
@@ -184,7 +197,17 @@ std::vector<const Library::Declaration*> Library::named_in(std::string_view code
   return result;
 }
 
-std::string Library::used_by(std::string_view code) const {
+std::string Library::guard_of(const Declaration& declaration) {
+  std::string_view name = declaration.name;
+  for (const std::string_view beginning : {"surfgrad_", "Surfgrad", "SURFGRAD_"})
+    if (name.starts_with(beginning)) {
+      name.remove_prefix(beginning.size());
+      break;
+    }
+  return fmt::format("SURFGRAD_HAVE_{}{}", name, declaration.types);
+}
+
+std::string Library::used_by(std::string_view code, bool guarded) const {
   std::set<const Declaration*> used;
   const auto from_code = named_in(code);
   std::deque<const Declaration*> waiting(from_code.begin(), from_code.end());
@@ -199,7 +222,10 @@ std::string Library::used_by(std::string_view code) const {
     if (!used.contains(&d)) continue;
     if (d.comment.data() != comment.data()) result += d.comment;
     comment = d.comment;
-    result += std::string(d.text) + "\n\n";
+    if (guarded)
+      result += fmt::format("#ifndef {0}\n#define {0}\n{1}\n#endif\n\n", guard_of(d), d.text);
+    else
+      result.append(d.text).append("\n\n");
   }
   return result;
 }

@@ -20,18 +20,25 @@ class Library {
 
   /// The declarations that `code` needs, directly and by others, in the order of the file. Of overloads those
   /// that take as many arguments as a call has, and a first one of as many components where that can be seen.
-  [[nodiscard]] std::string used_by(std::string_view code) const;
+  ///
+  /// guarded  each stands under a condition of the preprocessor, SURFGRAD_HAVE_ with its name and the types
+  /// of
+  ///          its parameters: texts made so can be joined
+  [[nodiscard]] std::string used_by(std::string_view code, bool guarded = false) const;
 
  private:
   struct Declaration {
     std::string_view name;
     int arguments = -1;       ///< of a function, else -1
     int components = 0;       ///< of its first parameter, if that is a vector
+    std::string types{};      ///< of its parameters, each after a `_`
     std::string_view text{};  ///< without comment
     std::string_view comment; ///< with the line feed at its end
   };
   /// Whether another has the same name and number of arguments.
   [[nodiscard]] bool is_overloaded(const Declaration& declaration) const;
+  /// What a declaration is guarded by. Its name keeps its case, which tells types from functions.
+  [[nodiscard]] static std::string guard_of(const Declaration& declaration);
   [[nodiscard]] std::vector<const Declaration*> named_in(std::string_view code) const;
 
   std::vector<Declaration> declarations_;

@@ -114,6 +114,7 @@ std::string manifest(const Shader& shader) {
   Json json{{"surfgrad_shader", 1},
             {"language", language_word(shader.language)},
             {"function", shader.name + "_normal"}};
+  if (shader.language != Language::godot) json["group"] = shader.group;
   if (shader.displaces) json["vertex_function"] = shader.name + "_displaced";
   json["surface"] = Json::array();
   for (const SurfaceMember& m : shader.surface) {

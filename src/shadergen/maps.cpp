@@ -226,8 +226,19 @@ std::string MapUse::slope(const Place& place) const {
         b, fmt::format("({} * stack_whole_code({}.xy, {}, {}))", range_, texel(place), most, flat));
   }
   const bool two = b.channels == stack::Channels::xy;
-  return with_green(b, fmt::format("surfgrad_derivative_from_normal{}(2.0 * {}.{} - 1.0)",
-                                   two ? "__vec2" : "", texel(place), two ? "xy" : "xyz"));
+  return with_green(
+      b, fmt::format("surfgrad_derivative_from_normal{}({})", two ? "__vec2" : "", normal_code(place)));
+}
+
+std::string MapUse::normal_code(const Place& place) const {
+  return fmt::format("2.0 * {}.{} - 1.0", texel(place),
+                     binding().channels == stack::Channels::xy ? "xy" : "xyz");
+}
+
+bool MapUse::tells_variance() const {
+  const TextureBinding& b = binding();
+  return generator_.options().roughness && !generator_.exact() && trilinear() &&
+         (b.kind == MapKind::slopes || b.kind == MapKind::normals) && b.channels == stack::Channels::xyz;
 }
 
 std::string MapUse::value(const Place& place) const {
@@ -282,7 +293,39 @@ std::string MapUse::function_of(const std::string& type, const std::string& suff
       fmt::format("{} @(vec2 st, vec2 dst_dx, vec2 dst_dy) {{\n{}{}}}\n", type, place_lines(), rest));
 }
 
+std::string MapUse::slope_and_variance_function() const {
+  const std::vector<Place> where = places();
+  const auto normal = [&](std::size_t k) {
+    return where.size() == 1 ? "normal" : fmt::format("normal{}", k);
+  };
+  std::string rest;
+  for (std::size_t k = 0; k < where.size(); ++k)
+    rest += fmt::format("  vec3 {} = {};\n", normal(k), normal_code(where[k]));
+  const auto slope_of = [&](std::size_t k) {
+    return with_green(binding(), fmt::format("surfgrad_derivative_from_normal({})", normal(k)));
+  };
+  std::string hidden = "stack_hidden_variance(normal)";
+  if (where.size() == 1) {
+    rest += fmt::format("  vec2 slope = {};\n", slope_of(0));
+  } else {
+    rest += "  vec2 slopes[3];\n";
+    for (std::size_t k = 0; k < 3; ++k) rest += fmt::format("  slopes[{}] = {};\n", k, slope_of(k));
+    rest += "  vec3 weights = surfgrad_hex_weights(tiles, slopes, 7.0, 1.5);\n"
+            "  vec2 slope = surfgrad_hex_derivative(tiles, weights, slopes);\n"
+            "  vec3 variances = vec3(stack_hidden_variance(normal0), stack_hidden_variance(normal1), "
+            "stack_hidden_variance(normal2));\n";
+    hidden = "dot(weights * weights, variances)";
+  }
+  const char* of_footprint = moved() ? "dx, dy" : "dst_dx, dst_dy";
+  rest += fmt::format("  float variance = stack_minified({}, {}) * {};\n", of_footprint, size(), hidden);
+  const std::string along = along_coordinate("slope");
+  if (along != "slope") rest += fmt::format("  vec2 along = {};\n", along);
+  rest += fmt::format("  return vec3({0}.x, {0}.y, variance);\n", along == "slope" ? "slope" : "along");
+  return function_of("vec3", "_slope", rest);
+}
+
 std::string MapUse::slope_function() const {
+  if (tells_variance()) return slope_and_variance_function();
   const std::vector<Place> where = places();
   std::string rest;
   if (where.size() == 1) {

@@ -16,8 +16,10 @@ class MapUse {
 
   // Functions of (vec2 st, vec2 dst_dx, vec2 dst_dy), coordinate and footprint on the plane; their names.
 
-  /// vec2: the slope along st of a map of slopes, normals or derivatives.
+  /// vec2: the slope along st of a map of slopes, normals or derivatives. Where the map tells_variance()
+  /// vec3: the slope, and the variance of the slopes along an axis that the filter hides.
   [[nodiscard]] std::string slope_function() const;
+  [[nodiscard]] bool tells_variance() const;
   /// float: a weight, or a height.
   [[nodiscard]] std::string value_function() const;
   /// vec3: a direction, of any length.
@@ -67,6 +69,8 @@ class MapUse {
  private:
   [[nodiscard]] std::string texel(const Place& place) const;
   [[nodiscard]] std::string slope(const Place& place) const;
+  [[nodiscard]] std::string slope_and_variance_function() const;
+  [[nodiscard]] std::string normal_code(const Place& place) const;
   [[nodiscard]] std::string direction(const Place& place) const;
   [[nodiscard]] std::string function_of(const std::string& type, const std::string& suffix,
                                         const std::string& rest) const;

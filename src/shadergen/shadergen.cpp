@@ -152,6 +152,8 @@ std::string_view remark_on(Role role) {
     return "and along y";
   case Role::relative_from_screen:
     return "takes (x, y, depth, 1) in pixels to position; zero if no screen";
+  case Role::roughness:
+    return "between the bumps, perceptual: the root of GGX's or Beckmann's alpha";
   }
   return "";
 }
@@ -177,6 +179,7 @@ std::string result_struct(const Shader& shader, const Options& options) {
     text += fmt::format("  {} {}; // where the parallax has moved it\n", name == "position" ? "vec3" : "vec2",
                         name);
   if (shader.has_sunlight) text += "  float sunlight; // share of the sun that reaches the point\n";
+  if (options.roughness) text += "  float roughness; // with the slopes that minification hides\n";
   if (options.diagnostics)
     text += "  vec3 base_normal; // the mesh's; negated on back faces in modes mirror and flip\n"
             "  bool degenerate; // a normal or a frame that a layer needed did not exist\n";
@@ -220,13 +223,15 @@ std::string fragment_function(Generator& g, const std::string& frame, const Opti
   if (options.diagnostics)
     text += "  bool degenerate = s.normal_is_absent || surfgrad_max_abs(frame.normal) == 0.0;\n";
   if (shader.has_sunlight) text += "  float sunlight = 1.0;\n";
-  // A layer's comment follows an empty line, but at the beginning.
-  text += text.ends_with("{\n") && !g.body().empty() ? g.body().substr(1) : g.body();
-  text += fmt::format("\n  StackResult result;\n  result.normal = {};\n", normal);
-  for (const std::string& name : moved_members(shader)) text += fmt::format("  result.{0} = s.{0};\n", name);
-  if (shader.has_sunlight) text += "  result.sunlight = sunlight;\n";
+  std::string rest = fmt::format("\n  StackResult result;\n  result.normal = {};\n", normal);
+  for (const std::string& name : moved_members(shader)) rest += fmt::format("  result.{0} = s.{0};\n", name);
+  if (shader.has_sunlight) rest += "  result.sunlight = sunlight;\n";
+  if (options.roughness) rest += fmt::format("  result.roughness = {};\n", g.widened_roughness());
   if (options.diagnostics)
-    text += "  result.base_normal = frame.normal;\n  result.degenerate = degenerate;\n";
+    rest += "  result.base_normal = frame.normal;\n  result.degenerate = degenerate;\n";
+  // A layer's comment follows an empty line, but at the beginning.
+  const std::string body = g.body(rest);
+  text += (text.ends_with("{\n") && !body.empty() ? body.substr(1) : body) + rest;
   return "// The normal that the layers make of a surface's.\n" + text + "  return result;\n}\n";
 }
 
@@ -241,6 +246,7 @@ Common written(const std::vector<stack::Layer>& layers, const Options& options, 
   if (!g.tangents_alone()) static_cast<void>(g.unused_name("frame"));
   static_cast<void>(g.surface(Role::normal));
   if (options.diagnostics) static_cast<void>(g.surface(Role::normal_is_absent));
+  if (options.roughness) static_cast<void>(g.surface(Role::roughness));
   for (const stack::Layer& layer : layers) {
     g.begin_layer(key_of(layer), kind_of(layer), maps_of(layer));
     std::visit([&](const auto& kind) { write(kind, g); }, layer);
@@ -271,6 +277,22 @@ std::string comment_block(const Options& options, const Shader& shader, bool dif
   return text + "\n";
 }
 
+/// The library's part in a text that includes nothing.
+std::string inlined_library(const Options& options, std::string_view code) {
+  const Library functions(library_text(options.language), options.language);
+  // WGSL has no preprocessor, and the engine's own device joins nothing.
+  const bool guarded = options.access != TextureAccess::exact && options.language != Language::wgsl;
+  std::string text = functions.used_by(code, guarded);
+  // Where the whole library stands before, nothing of it is wanted again.
+  if (guarded && !text.empty())
+    text = fmt::format("// What is called of the library. Guards let standalone files stand in one program.\n"
+                       "#ifndef {}\n\n{}#endif\n\n",
+                       options.language == Language::hlsl ? "SURFGRAD_HLSL" : "SURFGRAD_GLSL", text);
+  if (options.language == Language::glsl)
+    text = "#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n" + text;
+  return text;
+}
+
 } // namespace
 
 bool is_name(std::string_view text) {
@@ -283,6 +305,8 @@ bool is_name(std::string_view text) {
 Shader generate(const std::vector<stack::Layer>& layers, const Options& options) {
   if (!is_name(options.name))
     throw std::invalid_argument("a shader's name is a lower-case letter, then letters and digits");
+  if (options.first_binding < 0 || options.group < 0)
+    throw std::invalid_argument("a shader's bindings and groups are numbered from 0 on");
   Shader shader;
   const auto fresh = [&] {
     Shader s;
@@ -320,10 +344,7 @@ Shader generate(const std::vector<stack::Layer>& layers, const Options& options)
   const bool inlined = options.standalone || exact || options.language == Language::godot;
   std::string library;
   if (inlined) {
-    const Library functions(library_text(options.language), options.language);
-    library = functions.used_by(code);
-    if (options.language == Language::glsl)
-      library = "#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n" + library;
+    library = inlined_library(options, code);
   } else if (options.language == Language::wgsl) {
     library = fmt::format("// Needs {}: join it to this file.\n\n", library_name(options.language));
   } else {

@@ -51,6 +51,7 @@ struct FileFacts {
 
 struct Options {
   Language language = Language::glsl;
+  bool es = false; ///< glsl: what ES 3.00 cannot express is refused, too; else Shader::beyond_es names it
   TextureAccess access = TextureAccess::hardware;
   std::string name = "stack"; ///< begins every identifier: a lower-case letter, then letters and digits
   bool standalone = false;    ///< the library functions that are used stand in the text itself
@@ -60,7 +61,13 @@ struct Options {
   TextureOrigin origin = TextureOrigin::lower_left;
   /// StackResult has base_normal and degenerate, too: what engine::Composition has.
   bool diagnostics = false;
-  int march_steps = 64; ///< hardware: of the linear search of a parallax
+  /// hardware: StackSurface has the roughness of the surface between the bumps, StackResult what minification
+  /// makes of it. Maps of three channels and of filters with mip levels contribute, by how much shorter their
+  /// filtered normals are; of all others nothing is known.
+  bool roughness = false;
+  int march_steps = 64;  ///< hardware: of the linear search of a parallax
+  int first_binding = 0; ///< hardware: the first number of every kind of binding that the language counts
+  int group = 0;         ///< hardware: WGSL's group, HLSL's space (from 1 on: shader model 5.1), Vulkan's set
   /// Absent: every file is as FileFacts says.
   std::function<FileFacts(const stack::FileName&)> facts_of{};
   const stack::Displace* displace = nullptr; ///< adds the vertex stage where there is one
@@ -136,6 +143,7 @@ struct SurfaceMember {
     dn_dy,                ///< vec3: change of `normal` per pixel
     relative_from_screen, ///< mat4: takes (x, y, depth, 1) in pixels to the space of `position`, before the
                           ///< division by w; zero where the raster is no screen
+    roughness, ///< float, Options::roughness only: perceptual, the root of GGX's or Beckmann's alpha
   };
   Role role = Role::normal;
   std::string type{}; ///< in the language's spelling
@@ -163,12 +171,14 @@ struct Shader {
   bool moves = false;        ///< StackResult has position and stN: a parallax moves them
   bool has_sunlight = false; ///< StackResult has sunlight
   std::vector<TextureBinding> textures{};
+  int group = 0; ///< of all bindings; languages that have none, and OpenGL: 0
   int parameters_binding = 0;
   std::vector<Parameter> parameters{};
   std::vector<std::byte> parameter_data{}; ///< what the stack says, in the block's layout; maybe empty
   int decals_binding = 0;
   int decal_count = 0;
   bool decals_in_block = false;        ///< a uniform block, else a storage buffer
+  std::string beyond_es{};             ///< glsl: the layer and why the code compiles as 450 alone; or empty
   std::vector<std::byte> decal_data{}; ///< decal_count times bytes_a_decal
   bool displaces = false;              ///< there is NAME_displaced for the vertex stage
 };
@@ -208,7 +218,8 @@ static_assert(sizeof(ExactMap) == 32);
 /// The code of the layers of one material.
 ///
 /// throws  InputError with the layer's line and key for what a language cannot express: more textures or
-///         decals than its limits, a volume function of the program's own
+///         decals than its limits, registers beyond the last, a volume function of the program's own;
+///         std::invalid_argument for options that no language knows: names, negative bindings
 [[nodiscard]] Shader generate(const std::vector<stack::Layer>& layers, const Options& options);
 
 /// `exact` access: what stands before the code, the buffers of the words and the functions that read them.

@@ -95,6 +95,36 @@ vec2 stack_from_tile(vec2 derivative, vec2 sides, vec2 rotation) {
   return sides * surfgrad_rotate_back(derivative / sides, rotation);
 }
 
+// Roughness (docs/shader-export.md) --------------------------------------------------------------------------------
+
+float stack_square(float x) { return x * x; }
+
+// How much of a filtered normal's shortening is minification's: none where the map is magnified and texels are
+// blended, all from level 1 on.
+float stack_minified(vec2 dst_dx, vec2 dst_dy, vec2 size) {
+  return min(max(surfgrad_texture_lod(dst_dx, dst_dy, size), 0.0), 1.0);
+}
+
+// Variance along an axis of the slopes that an average of unit normals hides (Toksvig 2005, "Mipmapping normal
+// maps"). Where slopes s, t have variance v along each axis around a flat mean, the average is as long as its
+// part along the axis, E[1 / sqrt(1 + s^2 + t^2)] = 1 - E[s^2 + t^2] / 2 + ... = 1 - v + O(v^2), whose v is
+// (1 - |m|) / |m| to the same order. Of Gaussian slopes it gives v - 2 v^2 + O(v^3): never too rough.
+float stack_hidden_variance(vec3 m) {
+  float size = length(m);
+  return max(1.0 - size, 0.0) / max(size, 0.001);
+}
+
+// Roughness of slopes that scatter around those of the microfacets. Beckmann's slopes have variance alpha^2 / 2
+// along each axis; those of independent slopes add up: alpha'^2 = alpha^2 + 2 v (Olano and Baker 2010, "LEAN
+// Mapping"; GGX has no variance and is widened alike).
+float stack_widened(float roughness, float variance) {
+  SurfgradSlopeMoments hidden;
+  hidden.mean = vec2(0.0, 0.0);
+  hidden.square = vec2(variance, variance);
+  hidden.product = 0.0;
+  return sqrt(surfgrad_roughness_from_moments(roughness * roughness, hidden));
+}
+
 // Heights (engine/layers/height_map.hpp, image/bicubic.hpp) --------------------------------------------------------
 
 // How much of a slope comes from the smooth surface: all where the map is magnified, none from half a level of

@@ -1,6 +1,7 @@
 // surfgrad shader, and the commands of its page.
 
 #include "cli/program.hpp"
+#include "support/file_size_limit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -69,6 +70,40 @@ TEST(Shader, TheOriginOfTextures) {
   EXPECT_FALSE(flips({"--lang", "hlsl", "--origin", "lower_left"}));
 }
 
+TEST(Shader, RoughnessWhereAsked) {
+  const Folder folder;
+  for (const bool asked : {false, true}) {
+    std::vector<std::string> arguments{"shader", "--lang", "godot", "-o", "a"};
+    if (asked) arguments.push_back("--roughness");
+    EXPECT_EQ(run_program(arguments, folder.path()).status, 0);
+    EXPECT_EQ(text_of(folder.path() / "a").find("roughness") != std::string::npos, asked);
+    EXPECT_EQ(text_of(folder.path() / "a.json").find("\"roughness\"") != std::string::npos, asked);
+  }
+}
+
+TEST(Shader, BindingsBeginWhereAsked) {
+  const Folder folder;
+  const Outcome run = run_program(
+      {"shader", "--lang", "wgsl", "-o", "a.wgsl", "--first-binding", "7", "--group", "2"}, folder.path());
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(text_of(folder.path() / "a.wgsl"), HasSubstr("@group(2) @binding(7) var<uniform>"));
+  const auto json = nlohmann::json::parse(text_of(folder.path() / "a.wgsl.json"));
+  EXPECT_EQ(json["group"], 2);
+  EXPECT_EQ(json["parameters"]["binding"], 7);
+  EXPECT_EQ(json["textures"][0]["binding"], 8);
+  EXPECT_EQ(json["textures"][0]["sampler_binding"], 11);
+  for (const char* option : {"--first-binding", "--group"}) {
+    EXPECT_EQ(run_program({"shader", "--lang", "wgsl", "-o", "a.wgsl", option, "-1"}, folder.path()).status,
+              2);
+    EXPECT_EQ(run_program({"shader", "--lang", "wgsl", "-o", "a.wgsl", option, "1000"}, folder.path()).status,
+              2);
+    const Outcome godot =
+        run_program({"shader", "--lang", "godot", "-o", "a.gd", option, "1"}, folder.path());
+    EXPECT_EQ(godot.status, 2);
+    EXPECT_THAT(godot.error, HasSubstr("Godot numbers no bindings"));
+  }
+}
+
 TEST(Shader, AMaterialIsChosenByName) {
   const Folder folder;
   folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl skin\nf 1/1 2/2 3/3\n"
@@ -91,24 +126,103 @@ TEST(Shader, AMaterialIsChosenByName) {
   EXPECT_THAT(text_of(folder.path() / "a.glsl"), HasSubstr("surfgrad_worley("));
 }
 
-TEST(Shader, WhatCannotBeSaidIsRefusedAndLeavesNoFile) {
-  const Folder folder;
+/// A stack of 66 decals in one layer.
+void write_many_decals(const Folder& folder) {
   std::string layers;
   for (int i = 0; i < 66; ++i) layers += i > 0 ? ", {}" : "{}";
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  folder.write("n.ppm", "");
   folder.write("many.json", "{ \"surfgrad\": 1, \"mesh\": \"a.obj\", \"layers\": [\n"
                             "  { \"type\": \"decal\", \"map\": \"" SURFGRAD_SOURCE_DIR
                             "/docs/images/demo.png\",\n"
                             "    \"instances\": [" +
                                 layers + "] } ] }");
-  const Outcome run =
-      run_program({"shader", "many.json", "--lang", "godot", "-o", "a.gdshaderinc"}, folder.path());
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(
-      run.error,
-      HasSubstr("many.json:2: layers[0]: brings the stack to 66 decals; a shader in this language takes 64"));
-  EXPECT_THAT(folder.files(), Not(testing::Contains(StartsWith("a.gd"))));
+}
+
+TEST(Shader, WhatCannotBeSaidIsRefusedAndLeavesNoFile) {
+  const Folder folder;
+  write_many_decals(folder);
+  for (const char* language : {"godot", "glsl_es"}) {
+    const Outcome run =
+        run_program({"shader", "many.json", "--lang", language, "-o", "a.txt"}, folder.path());
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.error,
+                HasSubstr("many.json:2: layers[0]: brings the stack to 66 decals; a shader in this "
+                          "language takes 64"));
+    EXPECT_THAT(folder.files(), ElementsAre("a.obj", "many.json"));
+  }
+}
+
+TEST(Shader, WhatOnlyOneGLSLTakesIsWarnedOf) {
+  const Folder folder;
+  write_many_decals(folder);
+  const char* const warning =
+      "many.json:2: layers[0]: brings the stack to 66 decals; the code compiles as GLSL "
+      "450 alone, as ES takes 64";
+  const Outcome run = run_program({"shader", "many.json", "--lang", "glsl", "-o", "a.glsl"}, folder.path());
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.error, HasSubstr(std::string("warning: ") + warning));
+  const Outcome json =
+      run_program({"shader", "many.json", "--lang", "glsl", "-o", "a.glsl", "--json", "-q"}, folder.path());
+  EXPECT_EQ(json.error, "");
+  EXPECT_EQ(nlohmann::json::parse(json.out)["warnings"], nlohmann::json::array({warning}));
+  const Outcome hlsl =
+      run_program({"shader", "many.json", "--lang", "hlsl", "-o", "a.hlsl", "--json"}, folder.path());
+  EXPECT_EQ(hlsl.error, "");
+  EXPECT_TRUE(nlohmann::json::parse(hlsl.out)["warnings"].empty());
+}
+
+TEST(Shader, BothFilesAreReplacedOrNone) {
+  const Folder folder;
+  ASSERT_EQ(run_program({"shader", "--lang", "hlsl", "-o", "a"}, folder.path()).status, 0);
+  const auto size = [&](const char* file) { return std::filesystem::file_size(folder.path() / file); };
+  const std::uintmax_t code = size("a"), bindings = size("a.json");
+  ASSERT_NE(code, bindings);
+  // Room for one of the two, whichever is written first; for neither; and for both.
+  const auto run_with_room_for = [&](std::uintmax_t bytes) {
+    folder.write("a", "old code");
+    folder.write("a.json", "old bindings");
+    const test::FileSizeLimit limit(bytes);
+    return run_program({"shader", "--lang", "hlsl", "-o", "a", "-q"}, folder.path());
+  };
+  for (const std::uintmax_t room : {(code + bindings) / 2, std::uintmax_t{100}}) {
+    const Outcome run = run_with_room_for(room);
+    EXPECT_EQ(run.status, 3) << run.error;
+    EXPECT_THAT(run.error, HasSubstr("write"));
+    EXPECT_EQ(text_of(folder.path() / "a"), "old code");
+    EXPECT_EQ(text_of(folder.path() / "a.json"), "old bindings");
+    EXPECT_THAT(folder.files(), ElementsAre("a", "a.json"));
+  }
+  EXPECT_EQ(run_with_room_for(2 * (code + bindings)).status, 0);
+  EXPECT_EQ(size("a"), code);
+  EXPECT_EQ(size("a.json"), bindings);
+}
+
+TEST(Shader, NoInputIsReplacedAndNoFolder) {
+  const Folder folder;
+  const std::string stack =
+      R"({ "surfgrad": 1, "mesh": "a.obj", "layers": [ { "type": "normal_map", "map": "n.png" } ] })";
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  folder.write("n.png", text_of(SURFGRAD_SOURCE_DIR "/docs/images/demo.png"));
+  folder.write("rock.json", stack);
+  std::filesystem::create_directory(folder.path() / "sub");
+  std::filesystem::create_directory(folder.path() / "b.json");
+  const std::vector<std::string> before = folder.files();
+  const auto refusal = [&](const char* output) {
+    const Outcome run = run_program({"shader", "rock.json", "--lang", "glsl", "-o", output}, folder.path());
+    EXPECT_EQ(run.status, 1) << output;
+    return run.error;
+  };
+  EXPECT_THAT(refusal("rock"),
+              HasSubstr("rock.json: would replace a file of the scene; give -o another name"));
+  EXPECT_THAT(refusal("sub/../rock.json"), HasSubstr("would replace a file of the scene"));
+  EXPECT_THAT(refusal("n.png"), HasSubstr("n.png: would replace a file of the scene"));
+  EXPECT_THAT(refusal("sub"), HasSubstr("sub: is a folder"));
+  EXPECT_THAT(refusal("b"), HasSubstr("b.json: is a folder"));
+  const Outcome dash = run_program({"shader", "rock.json", "--lang", "glsl", "-o", "-"}, folder.path());
+  EXPECT_EQ(dash.status, 2);
+  EXPECT_THAT(dash.error, HasSubstr("two files are written"));
+  EXPECT_EQ(folder.files(), before);
+  EXPECT_EQ(text_of(folder.path() / "rock.json"), stack);
 }
 
 TEST(Shader, UsageMistakes) {
@@ -117,7 +231,8 @@ TEST(Shader, UsageMistakes) {
   for (const char* word : {"cg", "0", "GLSL", ""}) {
     const Outcome language = run_program({"shader", "--lang", word, "-o", "a.cg"}, folder.path());
     EXPECT_EQ(language.status, 2) << word;
-    EXPECT_THAT(language.error, HasSubstr(std::string(word) + "\" is none of glsl, godot, hlsl, wgsl"));
+    EXPECT_THAT(language.error,
+                HasSubstr(std::string(word) + "\" is none of glsl, glsl_es, godot, hlsl, wgsl"));
   }
   const Outcome name =
       run_program({"shader", "--lang", "glsl", "--name", "My_Skin", "-o", "a"}, folder.path());

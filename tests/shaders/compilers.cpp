@@ -32,10 +32,12 @@ Verdict run_glslang(const std::string& arguments, const std::string& file) {
   return verdict;
 }
 
+/// What is compiled may include files of shaders/.
 Verdict compile_for_vulkan(const TemporaryFolder& folder, const std::string& arguments,
                            const std::string& file) {
   const std::string spirv = (folder.path() / "shader.spv").string();
-  const Verdict verdict = run_glslang("-V --target-env vulkan1.1 " + arguments + " -o " + spirv, file);
+  const Verdict verdict = run_glslang(
+      "-V --target-env vulkan1.1 -I" SURFGRAD_SOURCE_DIR "/shaders " + arguments + " -o " + spirv, file);
   if (!verdict.accepted) return verdict;
   return run("spirv-val --target-env vulkan1.1 " + spirv);
 }
@@ -59,8 +61,12 @@ Verdict compile_glsl(const std::string& text, const std::string& stage) {
 }
 
 Verdict compile_glsl_file(const std::string& file, const std::string& stage) {
-  return compile_for_vulkan(TemporaryFolder(), "-I" SURFGRAD_SOURCE_DIR "/shaders -S " + stage,
-                            SURFGRAD_SOURCE_DIR "/" + file);
+  return compile_for_vulkan(TemporaryFolder(), "-S " + stage, SURFGRAD_SOURCE_DIR "/" + file);
+}
+
+Verdict compile_glsl_with_includes(const std::string& text, const std::string& stage) {
+  const TemporaryFolder folder;
+  return compile_for_vulkan(folder, "-S " + stage, folder.write("shader." + stage, text).string());
 }
 
 Verdict compile_hlsl(const std::string& text, const std::string& stage) {

@@ -22,7 +22,10 @@ struct Verdict {
 /// A GLSL file of the project, by its path there, that includes files of shaders/.
 [[nodiscard]] Verdict compile_glsl_file(const std::string& file, const std::string& stage);
 
-/// HLSL with a function main, by way of SPIR-V, which is validated.
+/// The same of a text, for Vulkan alone: parsing for OpenGL, glslang finds no includes.
+[[nodiscard]] Verdict compile_glsl_with_includes(const std::string& text, const std::string& stage);
+
+/// HLSL with a function main, that may include files of shaders/, by way of SPIR-V, which is validated.
 [[nodiscard]] Verdict compile_hlsl(const std::string& text, const std::string& stage);
 
 /// WGSL, uniformity included: both compilers must accept it.

@@ -35,9 +35,15 @@ const char* inside_of(const stack::DecalLayer& layer, const Generator& g) {
   return may_lack_space ? "place.inside && !stack_is_zero(s.object_from_world)" : "place.inside";
 }
 
-/// What a box, cone or wedge adds where it is, as lines inside the loop over decals: `gradient`, `falloff`.
-std::string image_lines(const stack::DecalLayer& layer, Generator& g, const std::string& fade) {
-  const std::string function = bump_function(g, layer.map, layer.map.content, layer.files[0], "map");
+/// What a decal adds where it is.
+struct Addition {
+  std::string lines;    ///< inside the loop over decals: they give `gradient`
+  std::string variance; ///< MapUse::tells_variance: of the slopes, as an expression; else empty
+};
+
+/// Of a box, cone or wedge.
+Addition image_addition(const stack::DecalLayer& layer, Generator& g, const std::string& fade) {
+  const BumpFunction function = bump_function(g, layer.map, layer.map.content, layer.files[0], "map");
   const char* gradient = layer.gradient == stack::ConeGradient::exact ? "SURFGRAD_CONE_GRADIENT_EXACT"
                                                                       : "SURFGRAD_CONE_GRADIENT_SCALE_FREE";
   std::string shape;
@@ -52,17 +58,20 @@ std::string image_lines(const stack::DecalLayer& layer, Generator& g, const std:
     shape = fmt::format("surfgrad_box_decal(decal.frame, at, decal.size, {})", fade);
   // Slopes lie along the image's axes, heights go by its coordinates.
   const char* axis = layer.map.content == stack::Content::height ? "grad" : "axis";
-  return fmt::format("    SurfgradDecalProjection place = {};\n"
-                     "    if ({}) {{\n"
-                     "      SurfgradTextureDerivatives d = surfgrad_projected_derivatives(place.grad_s, "
-                     "place.grad_t, dp_dx, dp_dy);\n"
-                     "      vec2 derivative = {}(place.texture_coordinate, d.dst_dx, d.dst_dy);\n"
-                     "      vec3 gradient = surfgrad_decal_gradient(derivative, place.{}_s, place.{}_t);\n",
-                     shape, inside_of(layer, g), function, axis, axis);
+  const char* bump = function.tells_variance ? "bump" : "derivative";
+  return {fmt::format("    SurfgradDecalProjection place = {};\n"
+                      "    if ({}) {{\n"
+                      "      SurfgradTextureDerivatives d = surfgrad_projected_derivatives(place.grad_s, "
+                      "place.grad_t, dp_dx, dp_dy);\n"
+                      "      {} {} = {}(place.texture_coordinate, d.dst_dx, d.dst_dy);\n"
+                      "      vec3 gradient = surfgrad_decal_gradient({}, place.{}_s, place.{}_t);\n",
+                      shape, inside_of(layer, g), function.type(), bump, function.name,
+                      function.derivative(bump), axis, axis),
+          function.variance(bump)};
 }
 
-/// The same of a sphere or capsule.
-std::string cube_lines(const stack::DecalLayer& layer, Generator& g, const std::string& fade) {
+/// Of a sphere or capsule.
+Addition cube_addition(const stack::DecalLayer& layer, Generator& g, const std::string& fade) {
   TextureBinding binding = binding_of(MapKind::cube, stack::Tiled{}, layer.files[0]);
   binding.files = layer.files;
   const stack::Tiled whole;
@@ -76,56 +85,95 @@ std::string cube_lines(const stack::DecalLayer& layer, Generator& g, const std::
       g.exact() ? fmt::format("stack_sample_cube({0}, place.lookup, stack_cube_lod({0}, q, q_dx, q_dy))",
                               map.exact_map())
                 : fmt::format("(2.0 * sample_cube_grad({}, q, q_dx, q_dy).xyz - 1.0)", map.binding().name);
-  return fmt::format(
-      "    SurfgradDecalDirection place = {};\n"
-      "    if ({}) {{\n"
-      "      vec3 q = stack_in_decal(decal.frame, place.unchanging, at - decal.frame.origin{});\n"
-      "      vec3 q_dx = stack_in_decal(decal.frame, place.unchanging, dp_dx);\n"
-      "      vec3 q_dy = stack_in_decal(decal.frame, place.unchanging, dp_dy);\n"
-      "      vec3 n = {};\n"
-      "      vec3 v = n.x * decal.frame.axis_x + n.y * decal.frame.axis_y + n.z * decal.frame.axis_z;\n"
-      "      vec3 gradient = surfgrad_decal_gradient_from_normal(place, v);\n",
-      shape, inside_of(layer, g),
-      capsule ? " - clamp(dot(at - decal.frame.origin, decal.frame.axis_x), -decal.half_length, "
-                "decal.half_length) * decal.frame.axis_x"
-              : "",
-      sampled);
+  return {
+      fmt::format(
+          "    SurfgradDecalDirection place = {};\n"
+          "    if ({}) {{\n"
+          "      vec3 q = stack_in_decal(decal.frame, place.unchanging, at - decal.frame.origin{});\n"
+          "      vec3 q_dx = stack_in_decal(decal.frame, place.unchanging, dp_dx);\n"
+          "      vec3 q_dy = stack_in_decal(decal.frame, place.unchanging, dp_dy);\n"
+          "      vec3 n = {};\n"
+          "      vec3 v = n.x * decal.frame.axis_x + n.y * decal.frame.axis_y + n.z * decal.frame.axis_z;\n"
+          "      vec3 gradient = surfgrad_decal_gradient_from_normal(place, v);\n",
+          shape, inside_of(layer, g),
+          capsule ? " - clamp(dot(at - decal.frame.origin, decal.frame.axis_x), -decal.half_length, "
+                    "decal.half_length) * decal.frame.axis_x"
+                  : "",
+          sampled),
+      ""};
 }
 
-/// How the gradient joins what waits to be projected, or the sum.
-std::string blend_lines(const stack::DecalLayer& layer, const std::string& waiting, bool world) {
-  const bool adds = has(layer, stack::DecalBlend::add), mixes = has(layer, stack::DecalBlend::mix),
-             replaces = has(layer, stack::DecalBlend::replace);
-  const char* outward = is_cube(layer.shape) ? "place.direction" : "decal.outward";
-  std::string lines = "      float w = place.falloff * weight * decal.opacity;\n";
-  std::string indent = "      ";
-  if (replaces) {
-    // Of the direction only its part along the surface of the decal bends.
-    lines +=
-        fmt::format("      {}\n"
-                    "        vec3 bent = decal.scale * surfgrad_from_volume_gradient({}, gradient);\n"
-                    "        vec3 g = surfgrad_from_perturbed_normal(frame.normal, {});\n"
-                    "        result = (1.0 - w) * (factor * result + {}) + w * g;\n"
-                    "        factor = 1.0;\n"
-                    "        waiting = vec3(0.0, 0.0, 0.0);\n",
-                    adds || mixes ? "if (decal.blend > 1.5) {" : "{", outward,
-                    world ? fmt::format("{} - bent", outward)
-                          : fmt::format("surfgrad_transform_normal(s.world_from_object, {} - bent)", outward),
-                    waiting);
-    lines += adds || mixes ? "      } else {\n" : "      }\n";
-    indent = "        ";
+/// What the loop over decals carries: only what their blends need.
+class Blending {
+ public:
+  /// tracks   whether what slopes hide is summed, too
+  /// project  the surface gradient of `waiting`, as an expression
+  Blending(const stack::DecalLayer& layer, bool tracks, std::string project)
+      : layer_(layer), adds_(has(layer, stack::DecalBlend::add)), mixes_(has(layer, stack::DecalBlend::mix)),
+        replaces_(has(layer, stack::DecalBlend::replace)), tracks_(tracks), project_(std::move(project)) {}
+
+  /// Before the loop.
+  [[nodiscard]] std::string begin() const {
+    return fmt::format("{}{}{}{}", replaces_ ? "  vec3 result = sum;\n" : "",
+                       tracks_ ? "  float hidden = variance;\n" : "", mixes_ ? "  float factor = 1.0;\n" : "",
+                       waits() ? "  vec3 waiting = vec3(0.0, 0.0, 0.0);\n" : "");
   }
-  if (mixes) {
-    lines += indent +
-             (adds ? "float keep = select(decal.blend > 0.5, 1.0 - w, 1.0);\n" : "float keep = 1.0 - w;\n");
-    lines += indent + "factor = keep * factor;\n";
-    lines += indent + "waiting = keep * waiting + (w * decal.scale) * gradient;\n";
-  } else if (adds) {
-    lines += indent + "waiting = waiting + (w * decal.scale) * gradient;\n";
+
+  /// The sum, with all that waits to be projected.
+  [[nodiscard]] std::string all() const {
+    const std::string so_far = fmt::format("{}{}", mixes_ ? "factor * " : "", replaces_ ? "result" : "sum");
+    return waits() ? fmt::format("{} + {}", so_far, project_) : so_far;
   }
-  if (replaces && (adds || mixes)) lines += "      }\n";
-  return lines;
-}
+
+  /// How `gradient` joins.
+  [[nodiscard]] std::string lines(const std::string& variance, bool world) const {
+    std::string lines = "      float w = place.falloff * weight * decal.opacity;\n";
+    if (tracks_) lines += variance_line(variance);
+    if (!waits()) return lines + replace_lines("      ", world);
+    if (!replaces_) return lines + wait_lines("      ");
+    return lines + "      if (decal.blend > 1.5) {\n" + replace_lines("        ", world) +
+           "      } else {\n" + wait_lines("        ") + "      }\n";
+  }
+
+ private:
+  [[nodiscard]] bool waits() const { return adds_ || mixes_; }
+
+  [[nodiscard]] std::string variance_line(const std::string& variance) const {
+    const std::string kept = !mixes_ && !replaces_ ? "hidden"
+                             : adds_ ? "stack_square(select(decal.blend > 0.5, 1.0 - w, 1.0)) * hidden"
+                                     : "stack_square(1.0 - w) * hidden";
+    const std::string own =
+        variance.empty() ? "" : fmt::format(" + stack_square(w * decal.scale) * {}", variance);
+    return fmt::format("      hidden = {}{};\n", kept, own);
+  }
+
+  /// Of the direction only its part along the surface of the decal bends.
+  [[nodiscard]] std::string replace_lines(const std::string& indent, bool world) const {
+    const char* outward = is_cube(layer_.shape) ? "place.direction" : "decal.outward";
+    const std::string bent =
+        world ? fmt::format("{} - bent", outward)
+              : fmt::format("surfgrad_transform_normal(s.world_from_object, {} - bent)", outward);
+    return fmt::format("{0}vec3 bent = decal.scale * surfgrad_from_volume_gradient({1}, gradient);\n"
+                       "{0}vec3 g = surfgrad_from_perturbed_normal(frame.normal, {2});\n"
+                       "{0}result = (1.0 - w) * {3} + w * g;\n"
+                       "{4}{5}",
+                       indent, outward, bent, waits() ? fmt::format("({})", all()) : all(),
+                       mixes_ ? fmt::format("{}factor = 1.0;\n", indent) : "",
+                       waits() ? fmt::format("{}waiting = vec3(0.0, 0.0, 0.0);\n", indent) : "");
+  }
+
+  [[nodiscard]] std::string wait_lines(const std::string& indent) const {
+    if (!mixes_) return fmt::format("{}waiting = waiting + (w * decal.scale) * gradient;\n", indent);
+    return fmt::format("{0}float keep = {1};\n"
+                       "{0}factor = keep * factor;\n"
+                       "{0}waiting = keep * waiting + (w * decal.scale) * gradient;\n",
+                       indent, adds_ ? "select(decal.blend > 0.5, 1.0 - w, 1.0)" : "1.0 - w");
+  }
+
+  const stack::DecalLayer& layer_;
+  bool adds_, mixes_, replaces_, tracks_;
+  std::string project_;
+};
 
 // Placement: as engine/layers/decal.cpp places them.
 
@@ -198,13 +246,20 @@ void append_instances(const stack::DecalLayer& layer, Generator& g) {
     std::memcpy(shader.decal_data.data() + end, values.data(), sizeof values);
     ++shader.decal_count;
   }
-  const int most = g.options().language == Language::godot ? most_decals_es : most_decals;
-  if (shader.decal_count > most)
-    throw InputError({.file = g.options().document,
-                      .line = layer.common.line,
-                      .place = layer.common.key,
-                      .problem = fmt::format("brings the stack to {} decals", shader.decal_count),
-                      .remedy = fmt::format("a shader in this language takes {}", most)});
+  const Options& options = g.options();
+  const bool glsl = options.language == Language::glsl && !g.exact();
+  const int most = options.language == Language::godot || (glsl && options.es) ? most_decals_es : most_decals;
+  const auto fault = [&](std::string remedy) {
+    return InputError({.file = options.document,
+                       .line = layer.common.line,
+                       .place = layer.common.key,
+                       .problem = fmt::format("brings the stack to {} decals", shader.decal_count),
+                       .remedy = std::move(remedy)});
+  };
+  if (shader.decal_count > most) throw fault(fmt::format("a shader in this language takes {}", most));
+  if (glsl && shader.beyond_es.empty() && shader.decal_count > most_decals_es)
+    shader.beyond_es =
+        fault(fmt::format("the code compiles as GLSL 450 alone, as ES takes {}", most_decals_es)).what();
 }
 
 } // namespace
@@ -232,26 +287,44 @@ void write(const stack::DecalLayer& layer, Generator& g) {
   const std::string waiting =
       world ? "surfgrad_from_volume_gradient(frame.normal, waiting)"
             : "stack_from_object_gradient(s.world_from_object, s.object_from_world, frame.normal, waiting)";
-  const std::string lines = is_cube(layer.shape) ? cube_lines(layer, g, fade) : image_lines(layer, g, fade);
+  const Addition addition =
+      is_cube(layer.shape) ? cube_addition(layer, g, fade) : image_addition(layer, g, fade);
+  const bool yields = has(layer, stack::DecalBlend::mix) || has(layer, stack::DecalBlend::replace);
+  const bool tracks = !addition.variance.empty() || (yields && !g.variance().empty());
+  const Blending blending(layer, tracks, waiting);
+  const std::string result = blending.all();
   const std::string function = g.function(
       g.global() + "_decals",
       fmt::format("// Volume gradients of decals are summed, then projected once.\n"
-                  "vec3 @(StackSurface s, SurfgradFrame frame, vec3 at, vec3 dp_dx, vec3 dp_dy, vec3 origin, "
-                  "vec3 sum, float weight) {{\n"
-                  "  vec3 result = sum;\n"
-                  "  float factor = 1.0;\n"
-                  "  vec3 waiting = vec3(0.0, 0.0, 0.0);\n"
+                  "{} @(StackSurface s, SurfgradFrame frame, vec3 at, vec3 dp_dx, vec3 dp_dy, vec3 origin, "
+                  "vec3 sum, {}float weight) {{\n"
+                  "{}"
                   "  for (int i = {}; i < {}; ++i) {{\n"
                   "    StackDecal decal = stack_decal(i, origin);\n"
                   "{}{}"
                   "    }}\n"
                   "  }}\n"
-                  "  return factor * result + {};\n"
+                  "{}"
                   "}}\n",
-                  first, g.shader().decal_count, lines, blend_lines(layer, waiting, world), waiting));
+                  tracks ? "vec4" : "vec3", tracks ? "float variance, " : "", blending.begin(), first,
+                  g.shader().decal_count, addition.lines, blending.lines(addition.variance, world),
+                  tracks ? fmt::format("  vec3 blended = {};\n  return vec4(blended.x, blended.y, blended.z, "
+                                       "hidden);\n",
+                                       result)
+                         : fmt::format("  return {};\n", result)));
   const std::string sum = g.sum().empty() ? "vec3(0.0, 0.0, 0.0)" : g.sum();
-  g.set_sum(fmt::format("{}(s, {}, {}, {}, {}, {}, {}, {})", function, g.frame(), at, at_dx, at_dy, origin,
-                        sum, weight));
+  const auto call = [&](const std::string& variance) {
+    return fmt::format("{}(s, {}, {}, {}, {}, {}, {}, {}{})", function, g.frame(), at, at_dx, at_dy, origin,
+                       sum, variance, weight);
+  };
+  if (!tracks) {
+    g.set_sum(call(""));
+    return;
+  }
+  const std::string both =
+      g.value("decals", "vec4", call(g.variance().empty() ? "0.0, " : g.variance() + ", "));
+  g.set_sum(both + ".xyz");
+  g.set_variance(both + ".w");
 }
 
 } // namespace surfgrad::shadergen

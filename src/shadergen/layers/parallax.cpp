@@ -217,6 +217,7 @@ class Parallax {
                          "    float value = {1};\n"
                          "    if (select(from_below, 1.0 - value, value) > start + rise) {{\n"
                          "      sun = 0.0;\n"
+                         "      break;\n"
                          "    }}\n"
                          "  }}\n"
                          "  return sun;\n",

@@ -15,9 +15,14 @@ void add_slope_map(Generator& generator, const Layer& layer, TextureBinding bind
   const Influence influence = influence_of(generator, layer.common);
   const MapUse map(generator, layer.map, std::move(binding), "map");
   const std::string basis = basis_of(generator, layer.map.uv, layer.basis == stack::Basis::derived);
-  generator.add_slope(
-      influence.weight, influence.scale, influence.mix, basis,
-      fmt::format("{}({})", map.slope_function(), coordinate_arguments(generator, layer.map.uv)));
+  const std::string slope =
+      fmt::format("{}({})", map.slope_function(), coordinate_arguments(generator, layer.map.uv));
+  if (map.tells_variance()) {
+    const std::string bump = generator.value("bump", "vec3", slope);
+    generator.add_slope(influence.weight, influence.scale, influence.mix, basis, bump + ".xy", bump + ".z");
+  } else {
+    generator.add_slope(influence.weight, influence.scale, influence.mix, basis, slope);
+  }
 }
 
 } // namespace surfgrad::shadergen

@@ -24,13 +24,14 @@ stack::Content bump_content(stack::TriplanarContent content) {
 
 /// The function of each plane's map; one serves all where there is one map.
 template <class FunctionOf>
-std::array<std::string, 3> of_planes(const stack::TriplanarLayer& layer, const FunctionOf& function_of) {
+auto of_planes(const stack::TriplanarLayer& layer, const FunctionOf& function_of) {
+  using Function = decltype(function_of(layer.files[0], "map"));
   if (layer.files.size() == 1) {
-    const std::string one = function_of(layer.files[0], "map");
-    return {one, one, one};
+    const Function one = function_of(layer.files[0], "map");
+    return std::array<Function, 3>{one, one, one};
   }
-  return {function_of(layer.files[0], "map_x"), function_of(layer.files[1], "map_y"),
-          function_of(layer.files[2], "map_z")};
+  return std::array<Function, 3>{function_of(layer.files[0], "map_x"), function_of(layer.files[1], "map_y"),
+                                 function_of(layer.files[2], "map_z")};
 }
 
 } // namespace
@@ -71,14 +72,24 @@ void write(const stack::TriplanarLayer& layer, Generator& g) {
     return bump_function(g, layer.map, bump_content(layer.map.content), file, what);
   });
   std::array<std::string, 3> derivatives;
-  for (std::size_t i = 0; i < 3; ++i)
-    derivatives[i] = g.value(fmt::format("derivative_{}", "xyz"[i]), "vec2",
-                             fmt::format("{}({})", functions[i], planes.arguments("xyz"[i])));
+  std::string variance;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char axis = "xyz"[i];
+    const BumpFunction& function = functions[i];
+    const std::string bump =
+        g.value(fmt::format("{}_{}", function.tells_variance ? "bump" : "derivative", axis), function.type(),
+                fmt::format("{}({})", function.name, planes.arguments(axis)));
+    derivatives[i] = function.derivative(bump);
+    if (function.tells_variance)
+      variance += fmt::format("{}stack_square({}.{}) * {}", variance.empty() ? "" : " + ", weights, axis,
+                              function.variance(bump));
+  }
   const std::string gradient =
       g.value("gradient", "vec3",
               fmt::format("surfgrad_triplanar_gradient({}, {}, {}, {}, {})", weights, derivatives[0],
                           derivatives[1], derivatives[2], convention));
-  g.add(influence.weight, influence.scale, influence.mix, from_gradient_in_space(g, world, gradient));
+  g.add(influence.weight, influence.scale, influence.mix, from_gradient_in_space(g, world, gradient),
+        variance.empty() ? "" : "(" + variance + ")");
 }
 
 } // namespace surfgrad::shadergen

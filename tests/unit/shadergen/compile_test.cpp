@@ -147,13 +147,10 @@ void expect_godot(const std::vector<NamedStack>& stacks, Options options) {
   options.language = Language::godot;
   for (const Shader& shader : shaders_of(stacks, options)) {
     EXPECT_EQ(word_that_godot_lacks(shader.source), "") << shader.name;
-    std::string code = std::regex_replace(shader.source, std::regex("(\nuniform [^;:=]*)[:=][^;]*;"), "$1;");
-    code = std::regex_replace(code, std::regex("\nuniform (sampler2D|samplerCube)"), "\nuniform highp $1");
-    expect_accepted(
-        surfgrad::test::compile_glsl("#version 300 es\nprecision highp float;\nprecision highp int;\n" +
-                                         code + main_of_glsl({shader}, true),
-                                     "frag"),
-        "Godot " + shader.name);
+    expect_accepted(surfgrad::test::compile_glsl("#version 300 es\n" + as_glsl_es(shader.source) +
+                                                     main_of_glsl({shader}, true),
+                                                 "frag"),
+                    "Godot " + shader.name);
   }
 }
 
@@ -184,6 +181,32 @@ TEST(Compile, EveryKindWithTheLibrary) {
 }
 
 TEST(Compile, EveryKindInGodot) { expect_godot(every_kind(), {}); }
+
+TEST(Compile, AsItStandsWithItsInclude) {
+  const NamedStack stack = two_passes();
+  const Shader glsl = generate(stack.layers, options_of(stack, Language::glsl));
+  ASSERT_NE(glsl.source.find("#include \"surfgrad.glsl\""), std::string::npos);
+  const std::string extension = "#extension GL_GOOGLE_include_directive : require\n";
+  expect_accepted(surfgrad::test::compile_glsl_with_includes("#version 450\n#define SURFGRAD_FRAGMENT\n" +
+                                                                 extension + glsl.source +
+                                                                 main_of_glsl({glsl}, false),
+                                                             "frag"),
+                  "GLSL " + stack.name);
+  const Shader hlsl = generate(stack.layers, options_of(stack, Language::hlsl));
+  ASSERT_NE(hlsl.source.find("#include \"surfgrad.hlsl\""), std::string::npos);
+  expect_accepted(
+      surfgrad::test::compile_hlsl(
+          hlsl.source + "float4 main() : SV_Target { return float4(0.0, 0.0, 0.0, 0.0); }\n", "frag"),
+      "HLSL " + stack.name);
+}
+
+TEST(Compile, EveryKindWithRoughness) {
+  const Options options{.roughness = true};
+  expect_glsl(every_kind(), options);
+  expect_hlsl(every_kind(), options);
+  expect_wgsl(every_kind(), options);
+  expect_godot(every_kind(), options);
+}
 
 TEST(Compile, EveryKindStandalone) {
   for (const NamedStack& stack : every_kind()) {

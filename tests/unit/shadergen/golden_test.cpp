@@ -35,6 +35,12 @@ TEST(Golden, TwoPasses) {
   expect_golden("torus.wgsl", source(two_passes(), Language::wgsl));
 }
 
+TEST(Golden, Roughness) {
+  Options options = options_of(two_passes(), Language::hlsl);
+  options.roughness = true;
+  expect_golden("torus_roughness.hlsl", generate(two_passes().layers, options).source);
+}
+
 TEST(Golden, Bindings) {
   expect_golden("torus.hlsl.json",
                 manifest(generate(two_passes().layers, options_of(two_passes(), Language::hlsl))));

@@ -57,6 +57,34 @@ TEST(Limits, Decals) {
   EXPECT_THAT(refusal(with_decals(65), Language::godot), HasSubstr("takes 64"));
 }
 
+TEST(Limits, WhatOnlyDesktopGLSLTakesNamesTheLayerThatGoesBeyond) {
+  NamedStack stack = with_decals(64);
+  const auto beyond = [&](Language language, bool es) {
+    Options options = options_of(stack, language);
+    options.es = es;
+    return generate(stack.layers, options).beyond_es;
+  };
+  for (const Language language : every_language) EXPECT_EQ(beyond(language, false), "");
+  EXPECT_EQ(beyond(Language::glsl, true), "");
+  stack = parsed("two", R"({ "surfgrad": 1, "layers": [
+    { "type": "decal", "map": "a.png" },
+    { "type": "decal", "map": "a.png" },
+    { "type": "decal", "map": "a.png" } ] })");
+  std::get<stack::DecalLayer>(stack.layers[1]).instances.resize(64);
+  EXPECT_EQ(
+      beyond(Language::glsl, false),
+      "two.json:3: layers[1]: brings the stack to 65 decals; the code compiles as GLSL 450 alone, as ES "
+      "takes 64");
+  EXPECT_EQ(beyond(Language::hlsl, false), "");
+  EXPECT_EQ(beyond(Language::hlsl, true), "");
+  try {
+    static_cast<void>(beyond(Language::glsl, true));
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("two.json:3: layers[1]: brings the stack to 65 decals"));
+  }
+}
+
 TEST(Limits, MoreDecalsThanOpenGLESTakesAreAnErrorThereAlone) {
   const auto source = [](int count) {
     return generate(with_decals(count).layers, options_of(with_decals(count), Language::glsl)).source;

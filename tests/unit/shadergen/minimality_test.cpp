@@ -61,19 +61,85 @@ TEST(Minimality, EveryDeclarationIsUsed) {
   EXPECT_GT(seen, 500);
 }
 
+TEST(Minimality, EveryLocalIsUsed) {
+  int seen = 0;
+  const std::regex function("\n[A-Za-z0-9_]+ ([a-z0-9A-Z_]+)\\([^;]*?\\) \\{\n([^]*?)\n\\}\n");
+  const std::regex local("\n? +[A-Za-z0-9]+ ([a-zA-Z0-9_]+) =");
+  for (const NamedStack& stack : every_kind())
+    for (const bool roughness : {false, true}) {
+      Options options = options_of(stack, Language::glsl);
+      options.roughness = roughness;
+      const std::string code = generate(stack.layers, options).source;
+      for (std::sregex_iterator f(code.begin(), code.end(), function), end; f != end; ++f) {
+        const std::string body = (*f)[2];
+        const auto counts = words_of(body);
+        for (std::sregex_iterator i(body.begin(), body.end(), local); i != end; ++i, ++seen)
+          EXPECT_GE(counts.at((*i)[1]), 2)
+              << stack.name << ", " << (*f)[1] << ": " << (*i)[1] << " is not used";
+      }
+    }
+  EXPECT_GT(seen, 300);
+}
+
+TEST(Minimality, DecalsCarryWhatTheirBlendsNeed) {
+  const auto words = [](const char* instances) {
+    const NamedStack stack =
+        parsed("d", std::string(R"({ "surfgrad": 1, "layers": [ { "type": "decal", "map": "a.png",
+      "instances": )") + instances +
+                        " } ] }");
+    const std::string code = generate(stack.layers, options_of(stack, Language::glsl)).source;
+    const std::size_t begin = code.find("vec3 d_layer0_decals(");
+    return words_of(code.substr(begin, code.find("\n}\n", begin) - begin));
+  };
+  const auto carried = [&](const char* instances) {
+    std::string list;
+    const auto counts = words(instances);
+    for (const char* name : {"factor", "keep", "result", "waiting"})
+      list += counts.contains(name) ? std::string(name) + " " : "";
+    return list;
+  };
+  EXPECT_EQ(carried(R"([ { "blend": "add" } ])"), "waiting ");
+  EXPECT_EQ(carried(R"([ { "blend": "mix" } ])"), "factor keep waiting ");
+  EXPECT_EQ(carried(R"([ { "blend": "replace" } ])"), "result ");
+  EXPECT_EQ(carried(R"([ { "blend": "replace" }, { "blend": "add" } ])"), "result waiting ");
+  EXPECT_EQ(carried(R"([ { "blend": "replace" }, { "blend": "mix" } ])"), "factor keep result waiting ");
+}
+
+TEST(Minimality, ARayThatIsStoppedGoesNoFurther) {
+  for (const NamedStack& stack : every_kind()) {
+    if (stack.name != "relief") continue;
+    for (const Language language : every_language)
+      EXPECT_THAT(generate(stack.layers, options_of(stack, language)).source,
+                  HasSubstr("sun = 0.0;\n      break;"));
+  }
+}
+
 TEST(Minimality, OneNormalMapTakesOneTextureAndHardlyAnyCode) {
   for (const Language language : every_language) {
     const std::string code = standalone(one_normal_map(), language);
     for (const char* other : {"noise", "Noise", "perlin", "decal", "Decal", "hex", "parallax", "triplanar",
                               "Frame", "dp_dx", "object_", "world_from"})
       EXPECT_THAT(code, Not(HasSubstr(other)));
-    // Decoding and the resolve with their helpers and comments: 106. The smallest noise is as long again.
-    EXPECT_LT(std::count(code.begin(), code.end(), '\n'), 120);
+    // Decoding and the resolve with their helpers and comments, guards aside: 106. The smallest noise is as
+    // long again.
+    const std::string bare = std::regex_replace(code, std::regex("#[^\n]*\n"), "");
+    EXPECT_LT(std::count(bare.begin(), bare.end(), '\n'), 120);
   }
   const Shader shader = generate(one_normal_map().layers, options_of(one_normal_map(), Language::glsl));
   EXPECT_EQ(shader.textures.size(), 1u);
   EXPECT_EQ(shader.parameters.size(), 2u);                // scale and opacity
   EXPECT_THAT(shader.source, Not(HasSubstr("(vec2 v)"))); // of two overloads the one that is called
+}
+
+TEST(Minimality, RoughnessIsThereOnlyWhereAsked) {
+  for (const NamedStack& stack : every_kind())
+    for (const Language language : every_language) {
+      Options options = options_of(stack, language);
+      for (const char* word : {"roughness", "variance", "minified"})
+        EXPECT_THAT(generate(stack.layers, options).source, Not(HasSubstr(word))) << stack.name;
+      options.roughness = true;
+      EXPECT_THAT(generate(stack.layers, options).source, HasSubstr("result.roughness = ")) << stack.name;
+    }
 }
 
 TEST(Minimality, NothingIsComputedTwice) {

@@ -1,5 +1,7 @@
 #include "stacks.hpp"
 
+#include <regex>
+
 namespace surfgrad::shadergen::test {
 
 NamedStack parsed(const std::string& name, std::string_view document) {
@@ -72,6 +74,12 @@ std::vector<NamedStack> every_kind() {
             "normal": "none", "curvature": false, "mask": { "map": "m.png" } },
           { "type": "normal_map", "map": "n.png" } ] })"),
           parsed("nothing", R"({ "surfgrad": 1, "layers": [] })")};
+}
+
+std::string as_glsl_es(const std::string& godot) {
+  std::string code = std::regex_replace(godot, std::regex("(\nuniform [^;:=]*)[:=][^;]*;"), "$1;");
+  code = std::regex_replace(code, std::regex("\nuniform (sampler2D|samplerCube)"), "\nuniform highp $1");
+  return "precision highp float;\nprecision highp int;\n" + code;
 }
 
 Options options_of(const NamedStack& stack, Language language) {

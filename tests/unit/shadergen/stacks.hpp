@@ -29,6 +29,9 @@ struct NamedStack {
 
 [[nodiscard]] Options options_of(const NamedStack& stack, Language language);
 
+/// Godot's code as GLSL ES 3.00: its uniforms without their hints and values.
+[[nodiscard]] std::string as_glsl_es(const std::string& godot);
+
 inline constexpr Language every_language[] = {Language::glsl, Language::hlsl, Language::wgsl,
                                               Language::godot};
 

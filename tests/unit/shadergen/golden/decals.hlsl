@@ -189,7 +189,6 @@ float2 decals_layer2_map_derivative(float2 st, float2 dst_dx, float2 dst_dy) {
 // Volume gradients of decals are summed, then projected once.
 float3 decals_layer2_decals(DecalsSurface s, SurfgradFrame frame, float3 at, float3 dp_dx, float3 dp_dy,
     float3 origin, float3 sum, float weight) {
-  float3 result = sum;
   float factor = 1.0;
   float3 waiting = float3(0.0, 0.0, 0.0);
   for (int i = 3; i < 4; ++i) {
@@ -206,7 +205,7 @@ float3 decals_layer2_decals(DecalsSurface s, SurfgradFrame frame, float3 at, flo
       waiting = keep * waiting + (w * decal.scale) * gradient;
     }
   }
-  return factor * result + surfgrad_from_volume_gradient(frame.normal, waiting);
+  return factor * sum + surfgrad_from_volume_gradient(frame.normal, waiting);
 }
 
 float2 decals_layer3_map_slope(float2 st, float2 dst_dx, float2 dst_dy) {
@@ -217,8 +216,6 @@ float2 decals_layer3_map_slope(float2 st, float2 dst_dx, float2 dst_dy) {
 // Volume gradients of decals are summed, then projected once.
 float3 decals_layer3_decals(DecalsSurface s, SurfgradFrame frame, float3 at, float3 dp_dx, float3 dp_dy,
     float3 origin, float3 sum, float weight) {
-  float3 result = sum;
-  float factor = 1.0;
   float3 waiting = float3(0.0, 0.0, 0.0);
   for (int i = 4; i < 5; ++i) {
     DecalsDecal decal = decals_decal(i, origin);
@@ -232,15 +229,13 @@ float3 decals_layer3_decals(DecalsSurface s, SurfgradFrame frame, float3 at, flo
       waiting = waiting + (w * decal.scale) * gradient;
     }
   }
-  return factor * result + surfgrad_from_volume_gradient(frame.normal, waiting);
+  return sum + surfgrad_from_volume_gradient(frame.normal, waiting);
 }
 
 // Volume gradients of decals are summed, then projected once.
 float3 decals_layer4_decals(DecalsSurface s, SurfgradFrame frame, float3 at, float3 dp_dx, float3 dp_dy,
     float3 origin, float3 sum, float weight) {
   float3 result = sum;
-  float factor = 1.0;
-  float3 waiting = float3(0.0, 0.0, 0.0);
   for (int i = 5; i < 6; ++i) {
     DecalsDecal decal = decals_decal(i, origin);
     SurfgradDecalDirection place = surfgrad_capsule_decal(decal.frame, at, decal.half_length, decal.size.x,
@@ -255,23 +250,17 @@ float3 decals_layer4_decals(DecalsSurface s, SurfgradFrame frame, float3 at, flo
       float3 v = n.x * decal.frame.axis_x + n.y * decal.frame.axis_y + n.z * decal.frame.axis_z;
       float3 gradient = surfgrad_decal_gradient_from_normal(place, v);
       float w = place.falloff * weight * decal.opacity;
-      {
-        float3 bent = decal.scale * surfgrad_from_volume_gradient(place.direction, gradient);
-        float3 g = surfgrad_from_perturbed_normal(frame.normal, place.direction - bent);
-        result = (1.0 - w) * (factor * result + surfgrad_from_volume_gradient(frame.normal, waiting)) + w * g;
-        factor = 1.0;
-        waiting = float3(0.0, 0.0, 0.0);
-      }
+      float3 bent = decal.scale * surfgrad_from_volume_gradient(place.direction, gradient);
+      float3 g = surfgrad_from_perturbed_normal(frame.normal, place.direction - bent);
+      result = (1.0 - w) * result + w * g;
     }
   }
-  return factor * result + surfgrad_from_volume_gradient(frame.normal, waiting);
+  return result;
 }
 
 // Volume gradients of decals are summed, then projected once.
 float3 decals_layer5_decals(DecalsSurface s, SurfgradFrame frame, float3 at, float3 dp_dx, float3 dp_dy,
     float3 origin, float3 sum, float weight) {
-  float3 result = sum;
-  float factor = 1.0;
   float3 waiting = float3(0.0, 0.0, 0.0);
   for (int i = 6; i < 7; ++i) {
     DecalsDecal decal = decals_decal(i, origin);
@@ -288,7 +277,7 @@ float3 decals_layer5_decals(DecalsSurface s, SurfgradFrame frame, float3 at, flo
       waiting = waiting + (w * decal.scale) * gradient;
     }
   }
-  return factor * result + surfgrad_from_volume_gradient(frame.normal, waiting);
+  return sum + surfgrad_from_volume_gradient(frame.normal, waiting);
 }
 
 // The normal that the layers make of a surface's.

@@ -205,6 +205,7 @@ float relief_layer0_map_visible(float2 at, float height, float2 way, bool from_b
     float value = relief_layer0_map.SampleGrad(relief_sampler0, there, dx, dy).r;
     if ((from_below ? 1.0 - value : value) > start + rise) {
       sun = 0.0;
+      break;
     }
   }
   return sun;
@@ -357,8 +358,6 @@ ReliefResult relief_normal(ReliefSurface surface) {
   float3 plane = relief_reflected(relief_normal, s.to_viewer, side);
   SurfgradScreenDerivatives dp = relief_relief_footprint(base, relief, plane, s.position,
       s.relative_from_screen, s.raster);
-  float2 footprint0_dx = s.dst0_dx;
-  float2 footprint0_dy = s.dst0_dy;
   SurfgradTextureDerivatives moved = relief_relief_derivatives(base, s.dst0_dx, s.dst0_dy, dp);
   s.dst0_dx = sound ? moved.dst_dx : s.dst0_dx;
   s.dst0_dy = sound ? moved.dst_dy : s.dst0_dy;
