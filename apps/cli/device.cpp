@@ -2,11 +2,14 @@
 
 #include "console.hpp"
 #include "diagnostic/error.hpp"
+#include "options.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <iostream>
+#include <map>
+#include <numbers>
 
 #if SURFGRAD_GPU
 #include "gpu/backend.hpp"
@@ -49,6 +52,15 @@ void add_device_options(CLI::App& verb, DeviceOptions& options) {
           ->check(known_device())
           ->type_name("NAME")
           ->option_text("NAME");
+  const std::map<std::string, Filter> filters{{"exact", Filter::exact}, {"hardware", Filter::hardware}};
+  verb.add_option(
+          "--filter", options.filter,
+          "how a Vulkan device filters maps: exact (default), as the processor does, or hardware, by\n"
+          "its samplers: faster, and the summary says how far normals may be off for it")
+      ->transform(one_of(filters))
+      ->needs(device)
+      ->type_name("NAME")
+      ->option_text("NAME");
   verb.add_option("--max-tile", options.max_tile,
                   "most pixels along a side of what a device is given at a time")
       ->check(CLI::Range(1, 4096).description(""))
@@ -57,22 +69,36 @@ void add_device_options(CLI::App& verb, DeviceOptions& options) {
       ->option_text("N");
 }
 
+static void require_samplers(const DeviceOptions& options) {
+  if (options.device == processor && options.filter == Filter::hardware)
+    throw CLI::ValidationError("--filter", "the processor has no hardware for it; use --device vulkan");
+}
+
 #if SURFGRAD_GPU
 
 struct ChosenDevice::Open {
   gpu::Device device;
+  Filter filter;
   gpu::Backend backend;
 
   explicit Open(const DeviceOptions& options)
-      : device({.number = number_of(options.device)}),
-        backend(device, options.max_tile > 0 ? options.max_tile : gpu::Backend::usual_tile_side) {}
+      : device({.number = number_of(options.device)}), filter(options.filter),
+        backend(device, options.max_tile > 0 ? options.max_tile : gpu::Backend::usual_tile_side, SIZE_MAX,
+                {.filtering = options.filter == Filter::hardware ? gpu::Filtering::hardware
+                                                                 : gpu::Filtering::exact}) {}
 };
 
 ChosenDevice::ChosenDevice(const DeviceOptions& options) {
+  require_samplers(options);
   if (options.device != processor) open_ = std::make_unique<Open>(options);
 }
 const stage::Backend* ChosenDevice::backend() const { return open_ ? &open_->backend : nullptr; }
 std::string ChosenDevice::name() const { return open_ ? open_->device.info().name : processor; }
+ChosenDevice::Filtered ChosenDevice::filtered() const {
+  if (!open_ || open_->filter == Filter::exact) return {};
+  const gpu::FilterReport report = open_->backend.filter_report();
+  return {"hardware", report.maps, report.sampled, report.largest_angle * 180 / std::numbers::pi};
+}
 
 static void print_vulkan_devices() {
   try {
@@ -90,11 +116,13 @@ static void print_vulkan_devices() {
 struct ChosenDevice::Open {};
 
 ChosenDevice::ChosenDevice(const DeviceOptions& options) {
+  require_samplers(options);
   if (options.device != processor)
     throw MachineError("cannot use a Vulkan device: this program was built without (SURFGRAD_GPU=OFF)");
 }
 const stage::Backend* ChosenDevice::backend() const { return nullptr; }
 std::string ChosenDevice::name() const { return processor; }
+ChosenDevice::Filtered ChosenDevice::filtered() const { return {}; }
 
 static void print_vulkan_devices() {}
 
@@ -114,5 +142,12 @@ void add_device_list(CLI::App& program) {
 }
 
 ChosenDevice::~ChosenDevice() = default;
+
+void say_filtered(const ChosenDevice::Filtered& filtered, Console& console) {
+  if (filtered.filter == "exact") return;
+  console.say(fmt::format(
+      "{} of {} maps filtered by hardware: normals at most {:.2g} degrees from those of exact filters",
+      filtered.sampled, filtered.maps, filtered.bound_deg));
+}
 
 } // namespace surfgrad::cli

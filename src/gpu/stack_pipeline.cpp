@@ -8,6 +8,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <map>
 #include <span>
 
 namespace surfgrad::gpu {
@@ -159,6 +160,17 @@ MapWords words_of(const std::vector<StackMap>& maps) {
   return result;
 }
 
+Sampling sampling_of(stack::Filter filter) {
+  return filter == stack::Filter::nearest    ? Sampling::nearest
+         : filter == stack::Filter::bilinear ? Sampling::bilinear
+                                             : Sampling::trilinear;
+}
+Addressing addressing_of(stack::Wrap wrap) {
+  return wrap == stack::Wrap::repeat   ? Addressing::repeat
+         : wrap == stack::Wrap::mirror ? Addressing::mirror
+                                       : Addressing::clamp;
+}
+
 void append(std::vector<float>& values, vec3<double> v) {
   for (const double each : {v.x, v.y, v.z}) values.push_back(static_cast<float>(each));
 }
@@ -222,12 +234,28 @@ StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shad
     add(Layout::words, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.words)), "its maps");
     add(Layout::maps, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::as_bytes(std::span(words.maps)), "its maps");
   }
+  add_textures(shader, maps);
+  for (const SampledMap& each : stack_textures_)
+    bindings.push_back({each.binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, 0});
   constexpr std::uint32_t constant_bytes = 2 * sizeof(std::uint32_t);
   const std::string text = text_of(shader);
   pipeline_ = cache.pipeline(text, [&] {
     return std::make_shared<const ComputePipeline>(device, compile({.text = text, .name = shader.name}),
                                                    bindings, constant_bytes);
   });
+}
+
+void StackPipeline::add_textures(const shadergen::Shader& shader, const std::vector<StackMap>& maps) {
+  std::map<const image::Map*, std::shared_ptr<const Texture>> textures;
+  for (const shadergen::TextureBinding& t : shader.textures) {
+    if (!t.sampled) continue;
+    const StackMap& map = maps[static_cast<std::size_t>(t.binding)];
+    std::shared_ptr<const Texture>& texture = textures[map.sampled];
+    if (!texture) texture = std::make_shared<const Texture>(device_, *map.sampled, map.format);
+    stack_textures_.push_back(
+        {static_cast<std::uint32_t>(shadergen::ExactLayout::textures + t.binding), texture,
+         make_sampler(device_, sampling_of(t.filter), addressing_of(t.wrap_s), addressing_of(t.wrap_t))});
+  }
 }
 
 bool StackPipeline::wants(Attribute attribute) const {
@@ -270,6 +298,8 @@ BoundResources StackPipeline::bound(const Buffer& fragments, const Buffer& resul
                                     const Buffer& object) const {
   BoundResources resources(device_, *pipeline_);
   for (const auto& [binding, buffer] : stack_buffers_) resources.bind(binding, buffer);
+  for (const auto& [binding, texture, sampler] : stack_textures_)
+    resources.bind(binding, *texture, sampler.get());
   resources.bind(fragments_binding, fragments, 1);
   resources.bind(results_binding, results, 1);
   resources.bind(object_binding, object, 1);

@@ -16,6 +16,9 @@ namespace surfgrad::gpu {
 struct StackMap {
   const image::Map* map = nullptr;
   const image::HeightField* field = nullptr; ///< whose map it is; null where rays do not meet it
+  /// What a sampled texture holds, and how; `map` then has its levels and the texture's unit, and no texels.
+  const image::Map* sampled = nullptr;
+  TextureFormat format{};
 };
 
 /// An attribute of fragments that a shader reads.
@@ -38,6 +41,8 @@ class StackPipeline {
   /// Arrays of a batch of fragments, in this order, each of floats_of its attribute.
   [[nodiscard]] const std::vector<StackAttribute>& attributes() const { return attributes_; }
   [[nodiscard]] std::size_t fragment_floats() const { return fragment_floats_; }
+  /// Textures that hardware filters.
+  [[nodiscard]] std::size_t sampled_count() const { return stack_textures_.size(); }
   [[nodiscard]] bool has_sunlight() const { return has_sunlight_; }
   [[nodiscard]] bool wants(Attribute attribute) const;
 
@@ -68,6 +73,13 @@ class StackPipeline {
     Buffer buffer;
   };
   std::vector<SetZero> stack_buffers_;
+  struct SampledMap {
+    std::uint32_t binding;
+    std::shared_ptr<const Texture> texture; // layers share them
+    Handle<VkSampler> sampler;
+  };
+  std::vector<SampledMap> stack_textures_;
+  void add_textures(const shadergen::Shader& shader, const std::vector<StackMap>& maps);
   std::shared_ptr<const ComputePipeline> pipeline_;
 };
 

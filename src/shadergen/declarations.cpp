@@ -58,6 +58,10 @@ std::string glsl(const Shader& shader, const Options& options) {
           "layout(std430, set = 0, binding = {}) readonly buffer StackWords {{ uint stack_words[]; }};\n"
           "layout(std430, set = 0, binding = {}) readonly buffer StackMaps {{ uint stack_maps[]; }};\n\n",
           ExactLayout::words, ExactLayout::maps);
+    for (const TextureBinding& t : shader.textures)
+      if (t.sampled)
+        text += fmt::format("layout(set = 0, binding = {}) uniform sampler2D {};\n",
+                            ExactLayout::textures + t.binding, t.name);
   } else {
     text += "// OpenGL ES gives its bindings in the program; other numbers: define these before.\n"
             "#ifndef SURFGRAD_BINDING\n"

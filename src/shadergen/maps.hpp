@@ -66,6 +66,7 @@ class MapUse {
 
  private:
   [[nodiscard]] std::string texel(const Place& place) const;
+  [[nodiscard]] std::string sampled_texel(const Place& place) const;
   [[nodiscard]] std::string slope(const Place& place) const;
   [[nodiscard]] std::string direction(const Place& place) const;
   [[nodiscard]] std::string function_of(const std::string& type, const std::string& suffix,
