@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <numbers>
@@ -143,11 +144,19 @@ void add_device_list(CLI::App& program) {
 
 ChosenDevice::~ChosenDevice() = default;
 
+/// A bound in two digits that holds still.
+static std::string rounded_up(double bound) {
+  if (bound >= 10) return fmt::format("{:.0f}", std::ceil(bound));
+  if (bound <= 0) return "0";
+  const double digit = std::pow(10.0, std::floor(std::log10(bound)) - 1);
+  return fmt::format("{:.2g}", std::ceil(bound / digit) * digit);
+}
+
 void say_filtered(const ChosenDevice::Filtered& filtered, Console& console) {
   if (filtered.filter == "exact") return;
   console.say(fmt::format(
-      "{} of {} maps filtered by hardware: normals at most {:.2g} degrees from those of exact filters",
-      filtered.sampled, filtered.maps, filtered.bound_deg));
+      "{} of {} maps filtered by hardware: normals at most {} degrees from those of exact filters",
+      filtered.sampled, filtered.maps, rounded_up(filtered.bound_deg)));
 }
 
 } // namespace surfgrad::cli

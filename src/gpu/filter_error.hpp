@@ -14,17 +14,15 @@ struct FilterPrecision {
 /// How far a map filtered so is at most from the map filtered exactly: the length of the difference of their
 /// components.
 ///
-/// derivation  Within a cell of four texels a bilinear filter changes, per texel along an axis, by no more
-/// than
-///             the cell's edges along that axis do. A coordinate that is off by e texels along both axes
-///             passes cells whose edges sum to no more than the steepest cell's: e times that. Blending two
-///             levels changes, per level, by their difference where they are read, which is largest at a
-///             texel of one of them: there the two piecewise bilinear functions have their corners. So
+/// derivation  Within a cell of four texels a bilinear filter changes along an axis, per texel, by no more
+///             than the cell's edges along that axis. A coordinate that is off by e texels along both axes
+///             passes cells none of which is steeper than the steepest. A blend of two levels changes, per
+///             level, by their difference there. Both are bilinear between the lines through texels of
+///             either, so that it is largest where two such lines cross. The error is at most
 ///
-///               precision.texel * steepest cell of any level + precision.level * largest difference of
-///               levels
+///               precision.texel * steepest cell + precision.level * largest difference of levels
 ///
-///             to which come the rounding of coordinates in float, and of texels.
+///             of all levels, and what rounding adds, of coordinates in float and of texels.
 /// nearest     the texel is found as the engine finds it: rounding alone
 [[nodiscard]] double filter_error(const image::Map& map, image::Wraps wraps, image::Filter filter,
                                   FilterPrecision precision);

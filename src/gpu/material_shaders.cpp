@@ -1,6 +1,5 @@
 #include "gpu/material_shaders.hpp"
 
-#include "gpu/filter_precision.hpp"
 #include "gpu/stack_maps.hpp"
 
 #include <algorithm>
@@ -42,13 +41,16 @@ std::size_t sampled_in(const shadergen::Shader& shader) {
 
 } // namespace
 
+FilterPrecision filter_precision(const VkPhysicalDeviceLimits& limits) {
+  return {std::ldexp(1.0, -static_cast<int>(limits.subTexelPrecisionBits)),
+          std::ldexp(1.0, -static_cast<int>(limits.mipmapPrecisionBits))};
+}
+
 MaterialShaders::MaterialShaders(const Device& device, const FilterOptions& options,
                                  const scene::Scene& scene, const std::vector<raster::UvSlot>& slots,
                                  const std::vector<raster::Surface>& surfaces, engine::MapLibrary& library)
     : device_(device), options_(options), scene_(scene), slots_(slots), surfaces_(surfaces),
-      library_(library) {
-  if (options.filtering == Filtering::hardware) precision_ = filter_precision(device);
-}
+      library_(library) {}
 
 bool MaterialShaders::even(std::uint32_t material) const {
   for (const scene::Object& object : scene_.objects) {
@@ -77,7 +79,7 @@ bool MaterialShaders::samples(FilterPlan& plan, const shadergen::MapSite& site,
   const image::Wraps wraps{engine::wrap_of(texture.wrap_s), engine::wrap_of(texture.wrap_t)};
   const image::Filter filter = filter_of(texture.filter);
   const auto [error, is_new] = errors_.try_emplace({map.get(), wraps.s, wraps.t, filter});
-  if (is_new) error->second = filter_error(*map, wraps, filter, precision_);
+  if (is_new) error->second = filter_error(*map, wraps, filter, filter_precision(device_.limits()));
   plan.count(site, error->second);
   return true;
 }

@@ -24,6 +24,11 @@ struct FilterOptions {
   std::function<bool(VkFormat)> filters{}; ///< in place of Device::filters, for tests
 };
 
+/// What a device's limits promise of its filters: coordinates and levels of detail are snapped to multiples
+/// of 2^-bits of a texel and of a level (subTexelPrecisionBits and mipmapPrecisionBits, each at least 4,
+/// usually 8). To which side is not said: they are off by a whole step at most.
+[[nodiscard]] FilterPrecision filter_precision(const VkPhysicalDeviceLimits& limits);
+
 /// What hardware filters of what was prepared last, and how far that turns normals at most.
 struct FilterReport {
   std::size_t maps = 0; ///< textures of all materials
@@ -54,7 +59,6 @@ class MaterialShaders {
   const std::vector<raster::UvSlot>& slots_;
   const std::vector<raster::Surface>& surfaces_;
   engine::MapLibrary& library_;
-  FilterPrecision precision_{};
   std::map<std::tuple<const image::Map*, image::Wrap, image::Wrap, image::Filter>, double> errors_;
   FilterReport report_;
 };

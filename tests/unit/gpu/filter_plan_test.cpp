@@ -185,6 +185,37 @@ TEST(FilterPlans, BoundTheAnglesThroughLaterPasses) {
             0.2);
 }
 
+TEST(FilterPlans, CountNoisesByTheirSteepestGradient) {
+  Random random(9);
+  for (const stack::NoiseKind kind :
+       {stack::NoiseKind::perlin, stack::NoiseKind::simplex, stack::NoiseKind::worley,
+        stack::NoiseKind::fractal_sum, stack::NoiseKind::turbulence, stack::NoiseKind::ridged})
+    for (const double power : {1.0, 2.5}) {
+      stack::NoiseLayer noise;
+      noise.common.key = "layers";
+      noise.common.scale = -0.25;
+      noise.noise = {.function = kind, .octaves = 3, .gain = 0.4, .power = power, .frequency = 3};
+      if (power != 1) noise.noise.basis = stack::NoiseBasis::simplex;
+      Plan p(scene_with({layer(stack::Basis::derived), stack::ResolveLayer{}, noise}));
+      p.plan.count({0}, 1e-6);
+      // An error of the first pass grows by the second's steepest gradient.
+      const double most = p.plan.largest_angle() / 1e-6 - 1;
+      double largest = 0;
+      for (int i = 0; i < 50000; ++i)
+        largest = std::max(largest,
+                           0.25 * length(engine::evaluate(noise.noise, random.vector3(-5, 5), 0.0).gradient));
+      std::printf("  noise %d, power %g: gradient %.3g of %.3g\n", static_cast<int>(kind), power, largest,
+                  most);
+      EXPECT_LE(largest, most * (1 + 1e-6)); // a quotient of small numbers
+      EXPECT_GT(largest, 0.2 * most);        // octaves and powers are seldom at their worst together
+    }
+  stack::NoiseLayer root;
+  root.common.key = "layers";
+  root.noise.power = 0.5; // vertical at its zeros
+  EXPECT_FALSE(
+      Plan(scene_with({layer(stack::Basis::derived), stack::ResolveLayer{}, root})).plan.follows({0}));
+}
+
 TEST(FilterPlans, LeaveOutWhatTheyCannotFollow) {
   const auto follows = [](std::vector<stack::Layer> layers, const MapSite& site, bool even = true) {
     return Plan(scene_with(std::move(layers)), even).plan.follows(site);

@@ -50,12 +50,18 @@ class HardwareFilter : public VulkanTest {
       ++count;
     }
     ASSERT_GT(count, 500) << what << " shows next to nothing";
-    std::printf("  %s: %zu of %zu maps; mean %.2g, largest %.2g, bound %.2g degrees: %.2g of it\n",
-                what.c_str(), report.sampled, report.maps, sum / count, largest, bound, largest / bound);
+    std::printf("  %s: %zu of %zu maps; mean %.2g, largest %.2g, bound %.2g degrees\n", what.c_str(),
+                report.sampled, report.maps, sum / count, largest, bound);
     EXPECT_LE(largest, bound) << what;
     EXPECT_LT(bound, 90) << what << " is told nothing";
-    // Of two other readings of one map neighbours would differ; weights of a few bits tilt by some tenths.
-    EXPECT_LT(sum / count, 0.25) << what;
+    if (sampled > 0) {
+      EXPECT_GT(largest, 0) << what << " is read as before";
+    }
+    // The software driver weighs in float: what is read wrongly cannot hide below the bound of coarser
+    // weights.
+    if (device().info().kind == "processor") {
+      EXPECT_LT(largest, 1e-3) << what;
+    }
   }
 };
 
@@ -77,8 +83,11 @@ scene::Scene scene_with(std::vector<stack::Layer> layers) {
 }
 
 TEST_F(HardwareFilter, KeepsTheDemoWithinItsBound) {
-  // The dents of its second pass may magnify errors of the first: only the grain on top is filtered so.
-  compare("demo", scene::demo_scene(), 1, 4);
+  // The dents of its second pass may magnify errors of the first: only the grain on top is filtered so. Near
+  // enough to see it.
+  scene::Scene scene = scene::demo_scene();
+  scene.camera.zoom = 20;
+  compare("demo", scene, 1, 4);
 }
 
 TEST_F(HardwareFilter, ReadsMapsOfEveryFormat) {

@@ -162,7 +162,7 @@ void expect_exact(const std::vector<NamedStack>& stacks, Options options = {}) {
   options.diagnostics = true;
   for (const Shader& shader : shaders_of(stacks, options)) {
     const std::string main = "layout(local_size_x = 1) in;\n"
-                             "layout(std430, set = 1, binding = 0) buffer Out { vec4 color; };\n"
+                             "layout(std430, set = 0, binding = 60) buffer Out { vec4 color; };\n"
                              "void main() { " +
                              shader.type_name +
                              "Surface s; s.normal = vec3(1.0); color.xyz = " + shader.name +
