@@ -238,7 +238,7 @@ std::string MapUse::sampled_texel(const Place& place) const {
   if (b.filter == stack::Filter::nearest)
     return fmt::format("({} * texelFetch({}, stack_nearest({}, {}, {}), 0))", unit, b.name, exact_map(),
                        place.st, exact_wraps());
-  return fmt::format("({} * textureLod({}, stack_wrapped({}, {}), {}))", unit, b.name, place.st,
+  return fmt::format("({} * textureLod({}, stack_in_period({}, {}), {}))", unit, b.name, place.st,
                      exact_wraps(), trilinear() ? place.footprint + ".lod" : "0.0");
 }
 
