@@ -49,9 +49,13 @@ void run(BakeCommand& command) {
     const bake::Counts baked = bake::bake_bands(
         scene, command.job, [&](const image::Image& band) { file.write(band); }, console.report());
     file.commit();
+    const ChosenDevice::Filtered filtered = device.filtered();
     if (command.common.json) {
       console.say_json({{"output", output.string()},
                         {"device", device.name()},
+                        {"filter", filtered.filter},
+                        {"maps_sampled_by_hardware", filtered.sampled},
+                        {"filter_bound_deg", filtered.bound_deg},
                         {"width", size.width},
                         {"height", size.height},
                         {"covered_texels", baked.covered},
@@ -65,6 +69,7 @@ void run(BakeCommand& command) {
     warn_about(baked, console);
     console.say(fmt::format("wrote {} ({}x{}, {} texels covered)", output.string(), size.width, size.height,
                             baked.covered));
+    say_filtered(filtered, console);
   });
 }
 

@@ -58,9 +58,13 @@ void run(RenderCommand& command) {
         [&](const image::Image& band) { file.write(raw ? band : render::encoded_for_display(band, aov)); },
         console.report());
     file.commit();
+    const ChosenDevice::Filtered filtered = device.filtered();
     if (command.common.json) {
       console.say_json({{"output", output.string()},
                         {"device", device.name()},
+                        {"filter", filtered.filter},
+                        {"maps_sampled_by_hardware", filtered.sampled},
+                        {"filter_bound_deg", filtered.bound_deg},
                         {"width", size.width},
                         {"height", size.height},
                         {"covered_samples", picture.covered},
@@ -74,6 +78,7 @@ void run(RenderCommand& command) {
           "stands in, layers without a frame add nothing",
           picture.degenerate, picture.covered));
     console.say(fmt::format("wrote {} ({}x{})", output.string(), size.width, size.height));
+    say_filtered(filtered, console);
   });
 }
 

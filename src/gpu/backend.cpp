@@ -17,15 +17,6 @@ namespace {
 
 using engine::TileWork;
 
-shadergen::Shader shader_of(const scene::Scene& scene, const scene::Material& material) {
-  shadergen::Options options;
-  options.access = shadergen::TextureAccess::exact;
-  options.back_faces = material.back_faces;
-  options.diagnostics = true;
-  options.document = scene.source;
-  return shadergen::generate(material.layers, options);
-}
-
 /// Fragments of one thread on their way to the device and back.
 struct Batch {
   Buffer fragments, results, object;
@@ -49,16 +40,19 @@ constexpr std::size_t most_batch_bytes = std::size_t{64} << 20;
 class DeviceComposer : public stage::Composer {
  public:
   DeviceComposer(const Device& device, int tile_side, std::size_t most_fragments, const scene::Scene& scene,
-                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library, PipelineCache& cache,
-                 std::size_t most_buffer_bytes)
+                 const std::vector<raster::UvSlot>& slots, engine::MapLibrary& library,
+                 MaterialShaders& shaders, PipelineCache& cache, std::size_t most_buffer_bytes)
       : device_(device), slots_(slots) {
     std::size_t most_floats = StackPipeline::result_floats;
     std::size_t most_values = 1;
-    for (const scene::Material& material : scene.materials) {
-      const shadergen::Shader shader = shader_of(scene, material);
-      const StackMaps maps(shader, library);
-      const MapWords words(device, maps.maps(), material.name, most_buffer_bytes);
-      pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, words, cache, material.name));
+    for (std::uint32_t material = 0; material < scene.materials.size(); ++material) {
+      const std::string& name = scene.materials[material].name;
+      const shadergen::Shader shader = shaders.write(material);
+      const StackMaps maps(shader, library, [&](const image::Map& map, stack::Filter filter) {
+        return shaders.format_of(map, filter).value();
+      });
+      const MapWords words(device, maps.maps(), name, most_buffer_bytes);
+      pipelines_.push_back(std::make_unique<StackPipeline>(device, shader, maps.maps(), words, cache, name));
       most_floats = std::max(most_floats, pipelines_.back()->fragment_floats());
       most_values = std::max(most_values, pipelines_.back()->object_values({}).size());
     }
@@ -170,15 +164,26 @@ class DeviceComposer : public stage::Composer {
 } // namespace
 
 Backend::Backend(const Device& device, int most_tile_side, std::size_t most_fragments,
-                 std::size_t most_buffer_bytes)
+                 FilterOptions filter_options, std::size_t most_buffer_bytes)
     : device_(device), tile_side_(std::max(1, most_tile_side)),
-      most_fragments_(std::max<std::size_t>(1, most_fragments)), most_buffer_bytes_(most_buffer_bytes) {}
+      most_fragments_(std::max<std::size_t>(1, most_fragments)), filter_options_(std::move(filter_options)),
+      most_buffer_bytes_(most_buffer_bytes) {}
 
 std::unique_ptr<stage::Composer> Backend::prepare(const scene::Scene& scene,
                                                   const std::vector<raster::UvSlot>& slots,
+                                                  const std::vector<raster::Surface>& surfaces,
                                                   engine::MapLibrary& maps) const {
-  return std::make_unique<DeviceComposer>(device_, tile_side_, most_fragments_, scene, slots, maps, cache_,
-                                          most_buffer_bytes_);
+  MaterialShaders shaders(device_, filter_options_, scene, slots, surfaces, maps);
+  auto composer = std::make_unique<DeviceComposer>(device_, tile_side_, most_fragments_, scene, slots, maps,
+                                                   shaders, cache_, most_buffer_bytes_);
+  const std::scoped_lock lock(mutex_);
+  report_ = shaders.report();
+  return composer;
+}
+
+FilterReport Backend::filter_report() const {
+  const std::scoped_lock lock(mutex_);
+  return report_;
 }
 
 } // namespace surfgrad::gpu

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "gpu/material_shaders.hpp"
 #include "gpu/pipeline.hpp"
 #include "stage/backend.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 
 namespace surfgrad::gpu {
 
@@ -21,19 +23,26 @@ class Backend : public stage::Backend {
   /// most_fragments     of a tile that are on the device at a time
   /// most_buffer_bytes  of a buffer with maps
   explicit Backend(const Device& device, int most_tile_side = usual_tile_side,
-                   std::size_t most_fragments = SIZE_MAX, std::size_t most_buffer_bytes = SIZE_MAX);
+                   std::size_t most_fragments = SIZE_MAX, FilterOptions filter_options = {},
+                   std::size_t most_buffer_bytes = SIZE_MAX);
 
   [[nodiscard]] std::unique_ptr<stage::Composer> prepare(const scene::Scene& scene,
                                                          const std::vector<raster::UvSlot>& slots,
+                                                         const std::vector<raster::Surface>& surfaces,
                                                          engine::MapLibrary& maps) const override;
   [[nodiscard]] int tile_side() const override { return tile_side_; }
+  /// Of the scene prepared last.
+  [[nodiscard]] FilterReport filter_report() const;
 
  private:
   const Device& device_;
   int tile_side_;
   std::size_t most_fragments_;
+  FilterOptions filter_options_;
   std::size_t most_buffer_bytes_;
   mutable PipelineCache cache_{};
+  mutable std::mutex mutex_; // of the report
+  mutable FilterReport report_{};
 };
 
 } // namespace surfgrad::gpu

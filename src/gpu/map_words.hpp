@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/device.hpp"
+#include "gpu/texture.hpp"
 #include "image/height_field.hpp"
 #include "shadergen/shadergen.hpp"
 
@@ -17,6 +18,9 @@ struct StackMap {
   const image::Map* map = nullptr;
   const image::HeightField* field = nullptr; ///< whose map it is; null where rays do not meet it
   std::string file{};                        ///< for messages
+  /// What a sampled texture holds, and how; `map` then has its levels and the texture's unit, and no texels.
+  const image::Map* sampled = nullptr;
+  TextureFormat format{};
 };
 
 /// Where pieces lie that are put into buffers, each into the first that has room for it.

@@ -1,12 +1,10 @@
 #include "gpu/stack_maps.hpp"
 
 namespace surfgrad::gpu {
-namespace {
 
 using shadergen::MapKind;
 using shadergen::TextureBinding;
 
-/// What is one map.
 std::shared_ptr<const image::Map> map_of(const TextureBinding& t, engine::MapLibrary& library) {
   const stack::FileName& file = t.files.front();
   switch (t.kind) {
@@ -34,20 +32,35 @@ std::shared_ptr<const image::Map> map_of(const TextureBinding& t, engine::MapLib
   return nullptr;
 }
 
-} // namespace
+void StackMaps::add_sampled(const std::shared_ptr<const image::Map>& map, const TextureFormat& format,
+                            const std::string& file) {
+  auto levels = std::make_shared<image::Map>();
+  levels->components = map->components;
+  levels->format = map->format;
+  levels->scale = format.unit;
+  levels->level_count = map->level_count;
+  levels->level_table = map->level_table;
+  maps_.push_back({.map = levels.get(), .file = file, .sampled = map.get(), .format = format});
+  owners_.insert(owners_.end(), {levels, map});
+}
 
-StackMaps::StackMaps(const shadergen::Shader& shader, engine::MapLibrary& library) {
+StackMaps::StackMaps(const shadergen::Shader& shader, engine::MapLibrary& library,
+                     const std::function<TextureFormat(const image::Map&, stack::Filter)>& format_of) {
   for (const TextureBinding& t : shader.textures) {
     const std::string file = t.files.front().path.string();
     if (t.kind == MapKind::relief) {
       const auto field = library.relief(t.files.front(), t.channel);
-      maps_.push_back({&field->from_above.map, &field->from_above, file});
-      maps_.push_back({&field->from_below.map, &field->from_below, file});
+      maps_.push_back({.map = &field->from_above.map, .field = &field->from_above, .file = file});
+      maps_.push_back({.map = &field->from_below.map, .field = &field->from_below, .file = file});
       owners_.push_back(field);
       continue;
     }
     const auto map = map_of(t, library);
-    maps_.push_back({map.get(), nullptr, file});
+    if (t.sampled) {
+      add_sampled(map, format_of(*map, t.filter), file);
+      continue;
+    }
+    maps_.push_back({.map = map.get(), .file = file});
     owners_.push_back(map);
   }
 }

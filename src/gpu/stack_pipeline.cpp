@@ -8,6 +8,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <map>
 #include <span>
 
 namespace surfgrad::gpu {
@@ -78,7 +79,7 @@ std::string reading(const std::string& type, const char* function, std::size_t f
 }
 
 /// The shader around the generated function: a fragment an invocation.
-std::string text_of(const shadergen::Shader& shader, const MapWords& maps) {
+std::string text_of(const shadergen::Shader& shader, const MapWords& words) {
   std::string fills;
   std::size_t fragment = 0;
   std::size_t object = 0;
@@ -89,7 +90,7 @@ std::string text_of(const shadergen::Shader& shader, const MapWords& maps) {
     first += floats_in(m.type);
   }
   const std::string sunlight = shader.has_sunlight ? "r.sunlight" : "1.0";
-  return "#version 450\n" + shadergen::exact_words(shader, maps.blocks()) + shader.source +
+  return "#version 450\n" + shadergen::exact_words(shader, words.blocks()) + shader.source +
          fmt::format(R"(
 layout(local_size_x = {lanes}) in;
 layout(std430, set = 1, binding = 0) readonly buffer FragmentBlock {{ float fragment_values[]; }};
@@ -119,19 +120,33 @@ void main() {{
                      fmt::arg("name", shader.name), fmt::arg("sunlight", sunlight));
 }
 
-/// The first limit that is too low for so many storage buffers, and its number; empty if none is.
-std::string lacks_for(const VkPhysicalDeviceLimits& limits, std::uint32_t storage_buffers) {
+/// The first limit that is too low for so many storage buffers beside so many textures, and its number; empty
+/// if none is.
+std::string lacks_for(const VkPhysicalDeviceLimits& limits, std::uint32_t storage_buffers,
+                      std::uint32_t textures) {
   const struct {
     const char* name;
     std::uint32_t has, needs;
   } rows[] = {
       {"maxPerStageDescriptorStorageBuffers", limits.maxPerStageDescriptorStorageBuffers, storage_buffers},
       {"maxDescriptorSetStorageBuffers", limits.maxDescriptorSetStorageBuffers, storage_buffers},
-      {"maxPerStageResources", limits.maxPerStageResources, storage_buffers + 1}, // and the parameters
+      // The parameters count, too.
+      {"maxPerStageResources", limits.maxPerStageResources, storage_buffers + 1 + textures},
   };
   for (const auto& row : rows)
     if (row.has < row.needs) return fmt::format("{} is {}", row.name, row.has);
   return {};
+}
+
+Sampling sampling_of(stack::Filter filter) {
+  return filter == stack::Filter::nearest    ? Sampling::nearest
+         : filter == stack::Filter::bilinear ? Sampling::bilinear
+                                             : Sampling::trilinear;
+}
+Addressing addressing_of(stack::Wrap wrap) {
+  return wrap == stack::Wrap::repeat   ? Addressing::repeat
+         : wrap == stack::Wrap::mirror ? Addressing::mirror
+                                       : Addressing::clamp;
 }
 
 void append(std::vector<float>& values, vec3<double> v) {
@@ -157,8 +172,9 @@ void append(std::vector<float>& values, const mat4<double>& m) {
 
 } // namespace
 
-StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shader, const MapWords& maps,
-                             PipelineCache& cache, const std::string& material)
+StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shader,
+                             const std::vector<StackMap>& maps, const MapWords& words, PipelineCache& cache,
+                             const std::string& material)
     : device_(device), has_sunlight_(shader.has_sunlight) {
   for (const SurfaceMember& m : shader.surface) {
     if (m.of_object) {
@@ -191,27 +207,44 @@ StackPipeline::StackPipeline(const Device& device, const shadergen::Shader& shad
   using Layout = shadergen::ExactLayout;
   if (!shader.parameter_data.empty()) add(Layout::parameters, uniform, shader.parameter_data, "its numbers");
   if (shader.decal_count > 0) add(Layout::decals, storage, shader.decal_data, "its decals");
-  if (!maps.maps().empty()) {
-    add(Layout::maps, storage, std::as_bytes(std::span(maps.maps())), "its maps");
-    const auto count = static_cast<std::uint32_t>(maps.buffer_count());
+  add_textures(shader, maps);
+  for (const SampledMap& each : stack_textures_)
+    bindings.push_back({each.binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, 0});
+  if (!maps.empty()) {
+    add(Layout::maps, storage, std::as_bytes(std::span(words.maps())), "its maps");
+    const auto count = static_cast<std::uint32_t>(words.buffer_count());
     const auto others = static_cast<std::uint32_t>(
         std::count_if(bindings.begin(), bindings.end(), [](const Binding& b) { return b.type == storage; }));
-    if (const std::string lacking = lacks_for(device.limits(), others + count); !lacking.empty())
+    const auto sampled = static_cast<std::uint32_t>(stack_textures_.size());
+    if (const std::string lacking = lacks_for(device.limits(), others + count, sampled); !lacking.empty())
       refuse(fmt::format("its maps need {} buffers, all in all {}, {}", count, others + count, lacking),
              "smaller maps");
     bindings.push_back({Layout::words, storage, count, 0});
     for (std::uint32_t k = 0; k < count; ++k) {
-      const std::vector<std::uint32_t> words = maps.words(static_cast<int>(k));
+      const std::vector<std::uint32_t> some = words.words(static_cast<int>(k));
       stack_buffers_.push_back(
-          {Layout::words, k, make_device_buffer(device, std::as_bytes(std::span(words)))});
+          {Layout::words, k, make_device_buffer(device, std::as_bytes(std::span(some)))});
     }
   }
   constexpr std::uint32_t constant_bytes = 2 * sizeof(std::uint32_t);
-  const std::string text = text_of(shader, maps);
+  const std::string text = text_of(shader, words);
   pipeline_ = cache.pipeline(text, [&] {
     return std::make_shared<const ComputePipeline>(device, compile({.text = text, .name = shader.name}),
                                                    bindings, constant_bytes);
   });
+}
+
+void StackPipeline::add_textures(const shadergen::Shader& shader, const std::vector<StackMap>& maps) {
+  std::map<const image::Map*, std::shared_ptr<const Texture>> textures;
+  for (const shadergen::TextureBinding& t : shader.textures) {
+    if (!t.sampled) continue;
+    const StackMap& map = maps[static_cast<std::size_t>(t.binding)];
+    std::shared_ptr<const Texture>& texture = textures[map.sampled];
+    if (!texture) texture = std::make_shared<const Texture>(device_, *map.sampled, map.format);
+    stack_textures_.push_back(
+        {static_cast<std::uint32_t>(shadergen::ExactLayout::textures + t.binding), texture,
+         make_sampler(device_, sampling_of(t.filter), addressing_of(t.wrap_s), addressing_of(t.wrap_t))});
+  }
 }
 
 bool StackPipeline::wants(Attribute attribute) const {
@@ -254,6 +287,8 @@ BoundResources StackPipeline::bound(const Buffer& fragments, const Buffer& resul
                                     const Buffer& object) const {
   BoundResources resources(device_, *pipeline_);
   for (const SetZero& each : stack_buffers_) resources.bind(each.binding, each.buffer, 0, each.element);
+  for (const auto& [binding, texture, sampler] : stack_textures_)
+    resources.bind(binding, *texture, sampler.get());
   resources.bind(fragments_binding, fragments, 1);
   resources.bind(results_binding, results, 1);
   resources.bind(object_binding, object, 1);

@@ -23,15 +23,18 @@ struct StackAttribute {
 class StackPipeline {
  public:
   /// maps      of the shader
+  /// words     of those maps
   /// cache     of pipelines: stacks that differ in numbers and maps alone share theirs
   /// material  its name, for messages
   /// throws    MachineError where it exceeds the device's limits
-  StackPipeline(const Device& device, const shadergen::Shader& shader, const MapWords& maps,
-                PipelineCache& cache, const std::string& material);
+  StackPipeline(const Device& device, const shadergen::Shader& shader, const std::vector<StackMap>& maps,
+                const MapWords& words, PipelineCache& cache, const std::string& material);
 
   /// Arrays of a batch of fragments, in this order, each of floats_of its attribute.
   [[nodiscard]] const std::vector<StackAttribute>& attributes() const { return attributes_; }
   [[nodiscard]] std::size_t fragment_floats() const { return fragment_floats_; }
+  /// Textures that hardware filters.
+  [[nodiscard]] std::size_t sampled_count() const { return stack_textures_.size(); }
   [[nodiscard]] bool has_sunlight() const { return has_sunlight_; }
   [[nodiscard]] bool wants(Attribute attribute) const;
 
@@ -63,6 +66,13 @@ class StackPipeline {
     Buffer buffer;
   };
   std::vector<SetZero> stack_buffers_;
+  struct SampledMap {
+    std::uint32_t binding;
+    std::shared_ptr<const Texture> texture; // layers share them
+    Handle<VkSampler> sampler;
+  };
+  std::vector<SampledMap> stack_textures_;
+  void add_textures(const shadergen::Shader& shader, const std::vector<StackMap>& maps);
   std::shared_ptr<const ComputePipeline> pipeline_;
 };
 

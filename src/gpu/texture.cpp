@@ -24,6 +24,30 @@ bool is_sampled(const Device& device, VkFormat format) {
   return (device.format_features(format) & needed) == needed;
 }
 
+std::optional<TextureFormat> format_of_codes(const Map& map) {
+  switch (map.format) {
+  case TexelFormat::slope16:
+    return TextureFormat{VK_FORMAT_R16G16_SNORM, 2, largest_snorm * map.scale};
+  case TexelFormat::unorm16:
+    return TextureFormat{VK_FORMAT_R16_UNORM, 1, largest_unorm * map.scale};
+  case TexelFormat::floats:
+    break;
+  }
+  return std::nullopt;
+}
+
+/// Every device samples these.
+TextureFormat format_of_floats(const Map& map) {
+  switch (map.components) {
+  case 1:
+    return {VK_FORMAT_R32_SFLOAT, 1, 1};
+  case 2:
+    return {VK_FORMAT_R32G32_SFLOAT, 2, 1};
+  default:
+    return {VK_FORMAT_R32G32B32A32_SFLOAT, 4, 1};
+  }
+}
+
 std::size_t bytes_of_texel(const TextureFormat& format) {
   switch (format.format) {
   case VK_FORMAT_R16_UNORM:
@@ -94,22 +118,17 @@ VkSamplerAddressMode address_mode(Addressing addressing) {
 } // namespace
 
 TextureFormat format_on(const Device& device, const Map& map) {
-  if (map.format == TexelFormat::slope16 && is_sampled(device, VK_FORMAT_R16G16_SNORM))
-    return {VK_FORMAT_R16G16_SNORM, 2, largest_snorm * map.scale};
-  if (map.format == TexelFormat::unorm16 && is_sampled(device, VK_FORMAT_R16_UNORM))
-    return {VK_FORMAT_R16_UNORM, 1, largest_unorm * map.scale};
-  // Every device samples these.
-  switch (map.components) {
-  case 1:
-    return {VK_FORMAT_R32_SFLOAT, 1, 1};
-  case 2:
-    return {VK_FORMAT_R32G32_SFLOAT, 2, 1};
-  default:
-    return {VK_FORMAT_R32G32B32A32_SFLOAT, 4, 1};
-  }
+  const std::optional<TextureFormat> codes = format_of_codes(map);
+  return codes && is_sampled(device, codes->format) ? *codes : format_of_floats(map);
 }
 
-Texture::Texture(const Device& device, const Map& map) : format_(format_on(device, map)) {
+std::optional<TextureFormat> filtered_format(const Map& map, const std::function<bool(VkFormat)>& filters) {
+  for (const auto& format : {format_of_codes(map), std::optional(format_of_floats(map))})
+    if (format && filters(format->format)) return format;
+  return std::nullopt;
+}
+
+Texture::Texture(const Device& device, const Map& map, const TextureFormat& format) : format_(format) {
   const auto width = static_cast<std::uint32_t>(map.width());
   const auto height = static_cast<std::uint32_t>(map.height());
   const auto levels = static_cast<std::uint32_t>(map.level_count);

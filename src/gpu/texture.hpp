@@ -3,6 +3,9 @@
 #include "gpu/buffer.hpp"
 #include "image/map.hpp"
 
+#include <functional>
+#include <optional>
+
 namespace surfgrad::gpu {
 
 /// How the texels of a map lie on a device.
@@ -17,13 +20,20 @@ struct TextureFormat {
 /// The map's own format where the device samples it (16-bit formats are optional in Vulkan), else floats.
 [[nodiscard]] TextureFormat format_on(const Device& device, const image::Map& map);
 
+/// The first of the same formats that `filters` says is filtered linearly (as Device::filters does); none
+/// where no format of the map's is.
+[[nodiscard]] std::optional<TextureFormat> filtered_format(const image::Map& map,
+                                                           const std::function<bool(VkFormat)>& filters);
+
 /// A map with all its levels as a texture: for texelFetch and for samplers. Texel (x, y) of a level is the
 /// map's, so that t grows with y.
 class Texture {
  public:
   Texture() = default;
   /// throws  MachineError where the device has no textures of the map's size, or not enough memory
-  Texture(const Device& device, const image::Map& map);
+  Texture(const Device& device, const image::Map& map) : Texture(device, map, format_on(device, map)) {}
+  /// format  of format_on or filtered_format
+  Texture(const Device& device, const image::Map& map, const TextureFormat& format);
 
   [[nodiscard]] VkImageView view() const { return view_.get(); }
   [[nodiscard]] const TextureFormat& format() const { return format_; }

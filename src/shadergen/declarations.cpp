@@ -103,6 +103,10 @@ std::string glsl(const Shader& shader, const Options& options) {
       text += fmt::format("layout(std430, set = 0, binding = {}) readonly buffer StackMaps {{ uint "
                           "stack_maps[]; }};\n\n",
                           ExactLayout::maps);
+    for (const TextureBinding& t : shader.textures)
+      if (t.sampled)
+        text += fmt::format("layout(set = 0, binding = {}) uniform sampler2D {};\n",
+                            ExactLayout::textures + t.binding, t.name);
   } else {
     text += glsl_bindings(shader);
   }

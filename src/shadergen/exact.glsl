@@ -176,6 +176,27 @@ vec2 stack_map_height_slope(int number, vec2 st, StackFootprint footprint, int w
   return sum / footprint.probes;
 }
 
+// Maps that hardware filters out of textures. Its coordinates are within one period, as the engine's are: theirs
+// round alike.
+
+// Of a map's texture: what a component is multiplied by.
+float stack_unit(int number) { return uintBitsToFloat(stack_maps[uint(8 * number) + 4u]); }
+
+vec2 stack_in_period(vec2 st, int wrap_s, int wrap_t) {
+  return vec2(stack_folded(st.x, wrap_s), stack_folded(st.y, wrap_t));
+}
+
+// The texel of level 0 that holds the point.
+ivec2 stack_nearest(int number, vec2 st, int wrap_s, int wrap_t) {
+  vec2 size = stack_map_size(number);
+  vec2 at = stack_in_period(st, wrap_s, wrap_t) * size;
+  return ivec2(int(stack_index(at.x, size.x)), int(stack_index(at.y, size.y)));
+}
+
+vec2 stack_wrapped_slopes(vec2 st, vec2 slope, int wrap_s, int wrap_t) {
+  return vec2(stack_wrapped_slope(st.x, slope.x, wrap_s), stack_wrapped_slope(st.y, slope.y, wrap_t));
+}
+
 // A height of level 0.
 float stack_map_texel(int number, int x, int y) {
   StackMap map = stack_map_of(number);

@@ -84,6 +84,8 @@ class Generator {
   [[nodiscard]] const std::string& layer() const { return layer_; }
   /// `stack_layer3`: how functions and textures of it begin.
   [[nodiscard]] std::string global() const { return "stack_" + layer_; }
+  /// Of the current layer among the layers.
+  [[nodiscard]] std::size_t layer_index() const { return static_cast<std::size_t>(layer_count_ - 1); }
   [[nodiscard]] const std::string& layer_key() const { return layer_key_; }
   /// What the layer's kind is called, for the meaning of parameters: `layers[3] noise`.
   [[nodiscard]] std::string meaning(std::string_view what) const;

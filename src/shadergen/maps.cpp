@@ -25,7 +25,8 @@ bool same(const TextureBinding& a, const TextureBinding& b) {
          std::equal(a.files.begin(), a.files.end(), b.files.begin(), b.files.end(), same_file) &&
          a.wrap_s == b.wrap_s && a.wrap_t == b.wrap_t && a.filter == b.filter &&
          a.anisotropy == b.anisotropy && a.channels == b.channels && a.green == b.green &&
-         a.code.range == b.code.range && a.code.neutral == b.code.neutral && a.channel == b.channel;
+         a.sampled == b.sampled && a.code.range == b.code.range && a.code.neutral == b.code.neutral &&
+         a.channel == b.channel;
 }
 
 /// The number of the binding: that of one which is the same, or a new one's.
@@ -45,6 +46,26 @@ std::size_t index_of(Shader& shader, TextureBinding binding, const std::string& 
   std::vector<std::string>& layers = textures[index].layers;
   if (std::find(layers.begin(), layers.end(), layer) == layers.end()) layers.push_back(layer);
   return index;
+}
+
+/// Whether hardware filters a map of the engine's as the engine does, but for the precision of its weights.
+/// Heights of which differences are taken would show the steps of those weights, and encoded normals make
+/// slopes of any size of them.
+bool can_be_sampled(const TextureBinding& binding) {
+  switch (binding.kind) {
+  case MapKind::slopes:
+  case MapKind::derivatives:
+  case MapKind::height_slopes:
+  case MapKind::directions:
+  case MapKind::weights:
+    return binding.anisotropy == 1;
+  case MapKind::normals:
+  case MapKind::heights:
+  case MapKind::relief:
+  case MapKind::cube:
+    break;
+  }
+  return false;
 }
 
 /// Where the two arguments of a footprint part: the comma outside all brackets.
@@ -97,6 +118,8 @@ MapUse::MapUse(Generator& generator, const stack::Tiled& tiled, TextureBinding b
     range_ = generator.parameter(named("range"), "slope of the largest code", binding.code.range);
   binding.name = name_;
   const bool is_mask = what == "mask";
+  if (const auto& samples = generator.options().samples; generator.exact() && samples)
+    binding.sampled = can_be_sampled(binding) && samples({generator.layer_index(), is_mask}, binding);
   index_ = index_of(generator.shader(), std::move(binding), generator.layer_key() + (is_mask ? ".mask" : ""));
 
   if (tiled.tile.x != 1 || tiled.tile.y != 1)
@@ -209,8 +232,19 @@ std::string MapUse::texel(const Place& place) const {
                      footprint.substr(0, comma), footprint.substr(comma + 2));
 }
 
+std::string MapUse::sampled_texel(const Place& place) const {
+  const TextureBinding& b = binding();
+  const std::string unit = fmt::format("stack_unit({})", exact_map());
+  if (b.filter == stack::Filter::nearest)
+    return fmt::format("({} * texelFetch({}, stack_nearest({}, {}, {}), 0))", unit, b.name, exact_map(),
+                       place.st, exact_wraps());
+  return fmt::format("({} * textureLod({}, stack_in_period({}, {}), {}))", unit, b.name, place.st,
+                     exact_wraps(), trilinear() ? place.footprint + ".lod" : "0.0");
+}
+
 std::string MapUse::slope(const Place& place) const {
   const TextureBinding& b = binding();
+  if (b.sampled) return sampled_texel(place) + ".xy";
   if (generator_.exact())
     return fmt::format("stack_map_slope({}, {}, {}, {}, {})", exact_map(), place.st, place.footprint,
                        exact_wraps(), number_of(b.filter));
@@ -243,6 +277,7 @@ bool MapUse::tells_variance() const {
 
 std::string MapUse::value(const Place& place) const {
   const TextureBinding& b = binding();
+  if (b.sampled) return sampled_texel(place) + ".x";
   if (generator_.exact())
     return fmt::format("stack_map({}, {}, {}, {}, {}).x", exact_map(), place.st, place.footprint,
                        exact_wraps(), number_of(b.filter));
@@ -251,6 +286,7 @@ std::string MapUse::value(const Place& place) const {
 
 std::string MapUse::direction(const Place& place) const {
   const TextureBinding& b = binding();
+  if (b.sampled) return sampled_texel(place) + ".xyz";
   if (generator_.exact())
     return fmt::format("stack_map({}, {}, {}, {}, {})", exact_map(), place.st, place.footprint, exact_wraps(),
                        number_of(b.filter));
@@ -259,6 +295,8 @@ std::string MapUse::direction(const Place& place) const {
 }
 
 std::string MapUse::height_slope(const Place& place) const {
+  if (binding().sampled)
+    return fmt::format("stack_wrapped_slopes({}, {}.xy, {})", place.st, sampled_texel(place), exact_wraps());
   if (generator_.exact())
     return fmt::format("stack_map_height_slope({}, {}, {}, {}, {})", exact_map(), place.st, place.footprint,
                        exact_wraps(), number_of(binding().filter));

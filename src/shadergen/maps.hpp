@@ -68,6 +68,7 @@ class MapUse {
 
  private:
   [[nodiscard]] std::string texel(const Place& place) const;
+  [[nodiscard]] std::string sampled_texel(const Place& place) const;
   [[nodiscard]] std::string slope(const Place& place) const;
   [[nodiscard]] std::string slope_and_variance_function() const;
   [[nodiscard]] std::string normal_code(const Place& place) const;

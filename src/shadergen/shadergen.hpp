@@ -40,6 +40,14 @@ enum class TextureAccess {
   exact,
 };
 
+/// Which of a layer's maps is meant.
+struct MapSite {
+  std::size_t layer = 0; ///< place in the list of layers
+  bool mask = false;     ///< its mask, else a map of its bumps
+};
+
+struct TextureBinding;
+
 /// What integer codes of a file mean, where a layer's decoding depends on their number.
 enum class Codes { unorm8, unorm16, floats };
 
@@ -61,6 +69,9 @@ struct Options {
   TextureOrigin origin = TextureOrigin::lower_left;
   /// StackResult has base_normal and degenerate, too: what engine::Composition has.
   bool diagnostics = false;
+  /// exact: which maps hardware filters all the same, out of textures with the engine's own texels; absent:
+  /// none. Asked only of maps that it can filter as the engine does (TextureBinding::sampled), several times.
+  std::function<bool(const MapSite&, const TextureBinding&)> samples{};
   /// hardware: StackSurface has the roughness of the surface between the bumps, StackResult what minification
   /// makes of it. Maps of three channels and of filters with mip levels contribute, by how much shorter their
   /// filtered normals are; of all others nothing is known.
@@ -94,6 +105,10 @@ struct TextureBinding {
   int binding = 0;       ///< of the texture; in `exact` access the index of its (first) ExactMap
   std::string sampler{}; ///< of its sampler, in languages that have them apart
   int sampler_binding = 0;
+  /// exact: the texture `name` holds the map's texels and levels, and hardware filters it: by the engine's
+  /// level of detail, at coordinates within one period. Never set of reliefs, cube maps, heights of which
+  /// differences are taken, encoded normals, and anisotropic filters.
+  bool sampled = false;
   MapKind kind = MapKind::slopes;
   std::vector<stack::FileName> files{}; ///< one; six for a cube map of six files
   std::vector<std::string> layers{};    ///< keys of the layers that read it, e.g. `layers[2].mask`
@@ -191,11 +206,14 @@ struct Shader {
 ///              array of buffers where exact_words says so
 ///   binding 3  NAME_maps: one ExactMap a texture, two for a relief (from above, then from below), in the
 ///              order of Shader::textures
+///   binding 4  and on: at 4 + TextureBinding::binding a combined image and sampler for each sampled texture.
+///              Of its ExactMap only the levels count, and the scale: what a fetched component is multiplied
+///              by. Its texels need not be among the words.
 ///
 /// The caller puts exact_words before the code, declares nothing else of these and writes his own main, whose
-/// bindings begin at first_free.
+/// bindings are of other sets.
 struct ExactLayout {
-  static constexpr int parameters = 0, decals = 1, words = 2, maps = 3, first_free = 4;
+  static constexpr int parameters = 0, decals = 1, words = 2, maps = 3, textures = 4;
 };
 
 /// A map in the buffers of `exact` access, words as image::Map has them; positions count words of

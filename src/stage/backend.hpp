@@ -24,9 +24,11 @@ class Backend {
   virtual ~Backend() = default;
   /// Makes ready what the materials of a scene need.
   ///
-  /// slots  texture coordinates that its surfaces carry
+  /// slots     texture coordinates that its surfaces carry
+  /// surfaces  one a scene object, in the same order
   [[nodiscard]] virtual std::unique_ptr<Composer> prepare(const scene::Scene& scene,
                                                           const std::vector<raster::UvSlot>& slots,
+                                                          const std::vector<raster::Surface>& surfaces,
                                                           engine::MapLibrary& maps) const = 0;
   /// Samples along a side of the tiles that it is to be given.
   [[nodiscard]] virtual int tile_side() const = 0;

@@ -62,7 +62,6 @@ Stage::Stage(const scene::Scene& scene, const View& view, const std::vector<rast
       scene.source);
   for (const scene::Material& material : scene.materials)
     programs_.push_back(engine::compile(material.layers, slots_, maps));
-  if (backend != nullptr) composer_ = backend->prepare(scene, slots_, maps);
   for (const auto& odd : maps.inward_texels())
     report.warn(fmt::format(
         "{}: {} of {} texels point into the surface (z <= 0); they are read as if z were positive",
@@ -75,6 +74,7 @@ Stage::Stage(const scene::Scene& scene, const View& view, const std::vector<rast
     placements_.back().relative_from_screen = view.relative_from_screen;
     placements_.back().to_sun = view.to_sun;
   }
+  if (backend != nullptr) composer_ = backend->prepare(scene, slots_, surfaces_, maps);
 }
 
 std::size_t Stage::slot_of(int uv_set) const {

@@ -17,6 +17,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 class DeviceOption : public testing::Test {
@@ -86,6 +87,40 @@ TEST_F(DeviceOption, RefusesOtherWords) {
   const Outcome outcome = run_program({"bake", "-o", "out.png", "--max-tile", "9"}, folder_.path());
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.error, HasSubstr("--device"));
+}
+
+TEST_F(DeviceOption, FiltersByHardwareWhereItIsToldTo) {
+  const auto picture = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render",   "-o",     "out.exr", "--size", "64",
+                                       "--device", "vulkan", "--aov",   "normal"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_program(arguments, folder_.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.error;
+    return outcome.out;
+  };
+  EXPECT_THAT(picture({"--json"}), HasSubstr(R"("filter":"exact","filter_bound_deg":0.0)"));
+  EXPECT_THAT(picture({}), Not(HasSubstr("hardware")));
+  const std::string summary = picture({"--filter", "hardware"});
+  EXPECT_THAT(summary, HasSubstr("1 of 4 maps filtered by hardware: normals at most 0."));
+  EXPECT_THAT(summary, HasSubstr(" degrees from those of exact filters"));
+  const std::string json = picture({"--filter", "hardware", "--json"});
+  EXPECT_THAT(json, HasSubstr(R"("filter":"hardware","filter_bound_deg":0.)"));
+  EXPECT_THAT(json, HasSubstr(R"("maps_sampled_by_hardware":1)"));
+}
+
+TEST_F(DeviceOption, RefusesFiltersThatAreNotThere) {
+  const auto refused = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"bake", "-o", "out.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_program(arguments, folder_.path());
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.error;
+  };
+  EXPECT_THAT(refused({"--device", "vulkan", "--filter", "soft"}),
+              HasSubstr("\"soft\" is none of exact, hardware"));
+  EXPECT_THAT(refused({"--filter", "exact"}), HasSubstr("--filter requires --device"));
+  EXPECT_THAT(refused({"--device", "cpu", "--filter", "hardware"}), HasSubstr("use --device vulkan"));
+  EXPECT_THAT(folder_.files(), IsEmpty());
 }
 
 TEST_F(DeviceOption, GivesTheSamePictureInTilesOfAnySize) {

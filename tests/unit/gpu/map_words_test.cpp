@@ -92,7 +92,7 @@ class MapBuffers : public VulkanTest {
     std::printf("  %s: %zu maps in %d buffers\n", where.c_str(), words.maps().size(), words.buffer_count());
 
     const gpu::Backend one(device());
-    const gpu::Backend several(device(), gpu::Backend::usual_tile_side, SIZE_MAX, largest);
+    const gpu::Backend several(device(), gpu::Backend::usual_tile_side, SIZE_MAX, {}, largest);
     render::Options options{.width = 48, .height = 48, .samples = 1, .backend = &one};
     const render::Picture expected = render::render(scene, options);
     options.backend = &several;

@@ -154,13 +154,12 @@ void expect_godot(const std::vector<NamedStack>& stacks, Options options) {
   }
 }
 
-void expect_exact(const std::vector<NamedStack>& stacks) {
-  Options options;
+void expect_exact(const std::vector<NamedStack>& stacks, Options options = {}) {
   options.access = TextureAccess::exact;
   options.diagnostics = true;
   for (const Shader& shader : shaders_of(stacks, options)) {
     const std::string main = "layout(local_size_x = 1) in;\n"
-                             "layout(std430, set = 0, binding = 4) buffer Out { vec4 color; };\n"
+                             "layout(std430, set = 0, binding = 60) buffer Out { vec4 color; };\n"
                              "void main() { " +
                              shader.type_name +
                              "Surface s; s.normal = vec3(1.0); color.xyz = " + shader.name +
@@ -227,6 +226,11 @@ TEST(Compile, EveryKindStandalone) {
 }
 
 TEST(Compile, EveryKindOutOfBuffers) { expect_exact(every_kind()); }
+TEST(Compile, EveryKindWithTexturesBesideBuffers) {
+  Options options;
+  options.samples = [](const MapSite&, const TextureBinding&) { return true; };
+  expect_exact(every_kind(), options);
+}
 
 TEST(Compile, TheGalleryAndTheExamplesInEveryLanguage) {
   std::vector<NamedStack> stacks = gallery_stacks();

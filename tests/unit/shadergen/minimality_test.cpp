@@ -179,5 +179,30 @@ TEST(Minimality, OneFileReadAlikeIsOneTexture) {
   EXPECT_EQ(words_of(shader.source).at("same_layer0_mask_value"), 2); // defined, and called once for both
 }
 
+TEST(Minimality, ExactAccessReadsTexturesOnlyWhereItIsAsked) {
+  Options options;
+  options.access = TextureAccess::exact;
+  options.diagnostics = true;
+  std::size_t sampled = 0;
+  for (const NamedStack& stack : every_kind()) {
+    options.samples = {};
+    const std::string exact = generate(stack.layers, options).source;
+    for (const char* word : {"sampler2D", "textureLod", "texelFetch", "stack_unit(", "stack_in_period("})
+      EXPECT_EQ(exact.find(word), std::string::npos) << word << " in " << stack.name;
+    options.samples = [](const MapSite&, const TextureBinding&) { return false; };
+    EXPECT_EQ(generate(stack.layers, options).source, exact) << stack.name;
+    options.samples = [](const MapSite&, const TextureBinding&) { return true; };
+    for (const TextureBinding& t : generate(stack.layers, options).textures) {
+      if (!t.sampled) continue;
+      ++sampled;
+      EXPECT_EQ(t.anisotropy, 1) << t.name;
+      EXPECT_TRUE(t.kind != MapKind::normals && t.kind != MapKind::heights && t.kind != MapKind::relief &&
+                  t.kind != MapKind::cube)
+          << t.name;
+    }
+  }
+  EXPECT_GT(sampled, 10u);
+}
+
 } // namespace
 } // namespace surfgrad::shadergen::test
