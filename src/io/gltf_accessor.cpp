@@ -52,8 +52,10 @@ std::uint32_t load_index(const std::byte* bytes, int component) {
   return load<std::uint32_t>(bytes);
 }
 
-std::size_t size_of(int component) {
-  return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component)));
+std::uint32_t load_bits(const std::byte* bytes, int component) {
+  if (component == i8 || component == u8) return load<std::uint8_t>(bytes);
+  if (component == i16 || component == u16) return load<std::uint16_t>(bytes);
+  return load<std::uint32_t>(bytes);
 }
 
 /// Elements in a bufferView, all within it.
@@ -127,8 +129,8 @@ std::vector<T> components_of(const Document& document, const tinygltf::Accessor&
                              const std::string& place, const Load& load_component) {
   const auto components =
       static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-  const std::size_t component_size = size_of(accessor.componentType);
-  const std::size_t element_size = component_size * components;
+  const std::size_t one_component = component_size(accessor.componentType);
+  const std::size_t element_size = one_component * components;
   std::optional<Elements> elements;
   if (accessor.bufferView >= 0)
     elements =
@@ -142,7 +144,7 @@ std::vector<T> components_of(const Document& document, const tinygltf::Accessor&
   std::vector<T> values(accessor.count * components, T{});
   const auto store = [&](std::size_t element, const std::byte* bytes) {
     for (std::size_t c = 0; c < components; ++c)
-      values[element * components + c] = load_component(bytes + c * component_size, accessor.componentType);
+      values[element * components + c] = load_component(bytes + c * one_component, accessor.componentType);
   };
   if (elements)
     for (std::size_t i = 0; i < accessor.count; ++i) store(i, elements->first + i * elements->stride);
@@ -155,7 +157,7 @@ std::vector<T> components_of(const Document& document, const tinygltf::Accessor&
   require_index_component(document, indices.componentType, indices_place);
   const Elements targets =
       elements_of(document, indices.bufferView, static_cast<std::size_t>(indices.byteOffset), replaced,
-                  size_of(indices.componentType), indices_place);
+                  component_size(indices.componentType), indices_place);
   const Elements sources =
       elements_of(document, replacements.bufferView, static_cast<std::size_t>(replacements.byteOffset),
                   replaced, element_size, place + ".sparse.values");
@@ -171,6 +173,11 @@ std::vector<T> components_of(const Document& document, const tinygltf::Accessor&
 }
 
 } // namespace
+
+std::size_t component_size(int component_type) {
+  return static_cast<std::size_t>(
+      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
+}
 
 std::size_t component_count(Attribute attribute) {
   if (attribute == Attribute::texcoord) return 2;
@@ -216,6 +223,21 @@ std::vector<std::uint32_t> read_indices(const Document& document, int index, std
                               vertex_count),
                   "expected indices of its vertices");
   return indices;
+}
+
+std::vector<std::uint32_t> read_bits(const Document& document, int index) {
+  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
+  const std::string place = fmt::format("accessors[{}]", index);
+  const int component = accessor.componentType;
+  if (component != f32 && component != u32 && component != i8 && component != u8 && component != i16 &&
+      component != u16)
+    document.fail(place + ".componentType", fmt::format("is {}", component),
+                  "expected 5120 to 5123, 5125 or 5126");
+  // Their columns begin at multiples of four bytes.
+  if (accessor.type > TINYGLTF_TYPE_VEC4 && accessor.type != TINYGLTF_TYPE_SCALAR &&
+      component_size(component) < sizeof(std::uint32_t))
+    document.fail(place, "is a matrix of bytes or shorts", "expected floats");
+  return components_of<std::uint32_t>(document, accessor, place, load_bits);
 }
 
 } // namespace surfgrad::io::gltf

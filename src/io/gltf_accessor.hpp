@@ -25,4 +25,11 @@ enum class Attribute { position, normal, tangent, texcoord };
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const Document& document, int index,
                                                       std::size_t vertex_count, const std::string& place);
 
+/// The components of any accessor, in order, as they are stored: each the bits of its number. Sparse values
+/// are applied. One that is nobody's, such as a colour's, may have any type but matrices of bytes or shorts.
+[[nodiscard]] std::vector<std::uint32_t> read_bits(const Document& document, int index);
+
+/// Bytes of one component.
+[[nodiscard]] std::size_t component_size(int component_type);
+
 } // namespace surfgrad::io::gltf

@@ -19,6 +19,7 @@ namespace surfgrad::io::gltf {
 namespace {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 // Bytes are copied into numbers as they lie; glTF is little-endian.
 static_assert(std::endian::native == std::endian::little);
@@ -31,6 +32,9 @@ constexpr std::size_t chunk_header_size = 8;
 
 // tinygltf counts bytes of JSON in 32 bits. The text it gets may be a little longer than the file's.
 constexpr std::size_t most_json_bytes = std::size_t{1} << 30;
+
+// Writers of JSON call themselves once a level; no document of sense has a tenth of this.
+constexpr int deepest_nesting = 1000;
 
 // A parser's own words in a message: enough to understand, short enough for one line.
 constexpr std::size_t longest_reason = 120;
@@ -80,14 +84,16 @@ Chunks split(const std::filesystem::path& file, std::span<const std::byte> bytes
   return chunks;
 }
 
-json parse(const std::filesystem::path& file, std::span<const std::byte> text) {
+template <class Json>
+Json parse(const std::filesystem::path& file, std::span<const std::byte> text,
+           const typename Json::parser_callback_t& on_value = nullptr) {
   if (text.size() > most_json_bytes)
     fail(file, "", fmt::format("has {} bytes of JSON", text.size()),
          fmt::format("expected at most {}", most_json_bytes));
   const char* begin = reinterpret_cast<const char*>(text.data());
   try {
-    return json::parse(begin, begin + text.size());
-  } catch (const json::exception& error) {
+    return Json::parse(begin, begin + text.size(), on_value);
+  } catch (const json::exception& error) { // of ordered_json too
     Fault fault{.file = file, .remedy = "expected a glTF 2.0 document"};
     if (const auto* parse_error = dynamic_cast<const json::parse_error*>(&error))
       fault.line =
@@ -167,7 +173,7 @@ std::span<const std::byte> Document::bytes_of_view(int index) const {
 
 Document read_document(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   const Chunks chunks = split(file, bytes);
-  json checked = checked_document(file, parse(file, chunks.text));
+  json checked = checked_document(file, parse<json>(file, chunks.text));
   Document document{.file = file};
   // Images are read when a material uses them.
   for (const json& image : checked["images"]) {
@@ -184,6 +190,16 @@ Document read_document(const std::filesystem::path& file, std::span<const std::b
   }
   load(document, checked.dump(), buffers);
   return document;
+}
+
+ordered_json read_json(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  return parse<ordered_json>(file, split(file, bytes).text,
+                             [&](int depth, ordered_json::parse_event_t, const ordered_json&) {
+                               if (depth > deepest_nesting)
+                                 fail(file, "", fmt::format("is nested deeper than {}", deepest_nesting),
+                                      "expected a glTF 2.0 document");
+                               return true;
+                             });
 }
 
 } // namespace surfgrad::io::gltf

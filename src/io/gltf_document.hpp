@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <tiny_gltf.h>
 
 #include <cstddef>
@@ -33,5 +34,10 @@ struct Document {
 
 /// The document in the bytes of a .gltf or .glb file. Reads the buffers' files, but no images.
 [[nodiscard]] Document read_document(const std::filesystem::path& file, std::span<const std::byte> bytes);
+
+/// All of its JSON, unchecked, with members in their order. InputError also where it is nested deeper than
+/// any writer of JSON could follow.
+[[nodiscard]] nlohmann::ordered_json read_json(const std::filesystem::path& file,
+                                               std::span<const std::byte> bytes);
 
 } // namespace surfgrad::io::gltf

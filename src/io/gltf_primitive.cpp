@@ -144,6 +144,19 @@ bool is_finite(const mesh::TriangleMesh& mesh) {
 
 } // namespace
 
+std::vector<Triangle> read_triangles(const Document& document, const tinygltf::Primitive& primitive,
+                                     const std::string& place) {
+  const std::size_t vertex_count = vertex_count_of(document, primitive.attributes, place + ".attributes");
+  std::vector<std::uint32_t> indices;
+  if (primitive.indices >= 0) {
+    indices = read_indices(document, primitive.indices, vertex_count, place + ".indices");
+  } else {
+    indices.resize(vertex_count);
+    std::iota(indices.begin(), indices.end(), 0u);
+  }
+  return assemble(document, place, primitive.mode, indices);
+}
+
 mesh::TriangleMesh read_primitive(const Document& document, const tinygltf::Primitive& primitive,
                                   const std::string& place, std::uint32_t material, std::size_t tangent_set,
                                   std::span<const double> morph_weights) {
@@ -152,14 +165,7 @@ mesh::TriangleMesh read_primitive(const Document& document, const tinygltf::Prim
   const Attributes attributes(document, primitive.attributes, attributes_place, vertex_count);
   mesh::TriangleMesh mesh;
   mesh.positions = attributes.vectors<vec3<float>>("POSITION", Attribute::position);
-  std::vector<std::uint32_t> indices;
-  if (primitive.indices >= 0) {
-    indices = read_indices(document, primitive.indices, vertex_count, place + ".indices");
-  } else {
-    indices.resize(vertex_count);
-    std::iota(indices.begin(), indices.end(), 0u);
-  }
-  mesh.triangles = assemble(document, place, primitive.mode, indices);
+  mesh.triangles = read_triangles(document, primitive, place);
   mesh.material_of_triangle.assign(mesh.triangles.size(), material);
   mesh.normals = attributes.vectors<vec3<float>>("NORMAL", Attribute::normal);
   mesh.uv_sets = attributes.uv_sets();

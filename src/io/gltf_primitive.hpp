@@ -3,10 +3,12 @@
 #include "io/gltf_document.hpp"
 #include "mesh/triangle_mesh.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace surfgrad::io::gltf {
 
@@ -17,5 +19,10 @@ namespace surfgrad::io::gltf {
 [[nodiscard]] mesh::TriangleMesh
 read_primitive(const Document& document, const tinygltf::Primitive& primitive, const std::string& place,
                std::uint32_t material, std::size_t tangent_set, std::span<const double> morph_weights);
+
+/// The vertices of its triangles as the file numbers them, in the order and with the corners of
+/// read_primitive.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>>
+read_triangles(const Document& document, const tinygltf::Primitive& primitive, const std::string& place);
 
 } // namespace surfgrad::io::gltf

@@ -5,6 +5,7 @@
 #include "io/file.hpp"
 #include "io/gltf.hpp"
 #include "io/gltf_writer.hpp"
+#include "io/model_bytes.hpp"
 #include "io/obj.hpp"
 
 #include <fmt/format.h>
@@ -36,16 +37,21 @@ std::vector<std::byte> encode(const Model& model, ModelFormat format, const std:
 
 } // namespace
 
-Model read_model(const std::filesystem::path& file, const ModelOptions& options) {
+std::vector<std::byte> read_model_bytes(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   if (extension != ".gltf" && extension != ".glb" && extension != ".obj")
     throw InputError{{.file = file,
                       .problem = extension.empty() ? "has no extension"
                                                    : "\"" + extension + "\" is not a model's extension",
                       .remedy = "expected .gltf, .glb or .obj"}};
-  const std::vector<std::byte> bytes = read_file(file);
+  std::vector<std::byte> bytes = read_file(file);
   if (bytes.empty()) throw InputError{{.file = file, .problem = "is empty", .remedy = "expected a model"}};
-  if (extension != ".obj") return read_gltf(file, bytes, options);
+  return bytes;
+}
+
+Model read_model(const std::filesystem::path& file, const ModelOptions& options) {
+  const std::vector<std::byte> bytes = read_model_bytes(file);
+  if (lower_extension(file) != ".obj") return read_gltf(file, bytes, options);
   if (!options.morph_weights.empty())
     throw TooManyWeights{{.file = file,
                           .problem = "has no morph targets: the format knows none",

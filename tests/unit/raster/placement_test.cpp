@@ -104,6 +104,29 @@ TEST(Placement, UsesTheTangentsOfTheFileWhereGiven) {
                   .tangents.empty());
 }
 
+TEST(Placement, MakesTangentsForEveryUvSetThatLayersUse) {
+  mesh::TriangleMesh mesh = test::plane(2);
+  mesh.uv_sets.resize(3);
+  for (const vec2<float>& uv : mesh.uv_sets[0]) {
+    mesh.uv_sets[1].push_back({uv.y, uv.x});
+    mesh.uv_sets[2].push_back({-uv.x, uv.y});
+  }
+  // The file has tangents for the first set alone: the others must not take them.
+  mesh.tangent_spaces.resize(1);
+  mesh.tangent_spaces[0].corners.assign(3 * mesh.triangles.size(), {0.6f, 0.8f, 0, 1});
+  const Surface s = place_mesh(mesh, test::affine(test::scaling({1, 1, 1})), {0, 0, 0},
+                               {{2, true}, {0, true}, {1, true}, {1, false}});
+  const vec4<double> expected[] = {{-1, 0, 0, -1}, {0.6f, 0.8f, 0, 1}, {0, 1, 0, -1}};
+  for (std::size_t slot = 0; slot < 3; ++slot) {
+    ASSERT_EQ(s.slots[slot].tangents.size(), 3 * mesh.triangles.size());
+    for (const vec4<double>& t : s.slots[slot].tangents) {
+      EXPECT_LT(max_abs(vec3<double>{t.x - expected[slot].x, t.y - expected[slot].y, t.z}), 1e-7); // of float
+      EXPECT_EQ(t.w, expected[slot].w) << slot;
+    }
+  }
+  EXPECT_TRUE(s.slots[3].tangents.empty());
+}
+
 TEST(Placement, SurvivesATransformThatFlattens) {
   const mesh::TriangleMesh mesh = test::torus(8, 6);
   const Surface s = place_mesh(mesh, test::affine(test::scaling({1, 1, 0})), {0, 0, 0}, {{0, true}});
