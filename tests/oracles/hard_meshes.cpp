@@ -191,10 +191,22 @@ std::vector<HardMesh> hard_meshes() {
           {"wild normals", with_wild_normals()}};
 }
 
-std::vector<HardMesh> overflowing_meshes() {
-  return {{"lengths overflow", scaled(wavy_torus(20, 14), 1e25f, 1)},
-          {"products overflow", scaled(wavy_torus(20, 14), 1e30f, 1e15f)},
-          {"texture areas overflow", scaled(wavy_torus(20, 14), 1, 1e25f)}};
+TriangleMesh extreme_soup(unsigned seed) {
+  constexpr std::array values{0.0f,   -0.0f,   1.0f,   -1.0f, 2.0f,  0.5f,
+                              1e-42f, -1e-38f, 1e-20f, 1e20f, 3e38f, -3e38f};
+  Random random(seed);
+  const auto any = [&] { return values[static_cast<std::size_t>(random.integer(values.size()))]; };
+  TriangleMesh mesh;
+  mesh.uv_sets.resize(1);
+  for (int i = 0; i < 10; ++i) {
+    mesh.positions.push_back({any(), any(), any()});
+    mesh.normals.push_back({any(), any(), any()});
+    mesh.uv_sets[0].push_back({any(), any()});
+  }
+  const auto vertex = [&] { return static_cast<std::uint32_t>(random.integer(10)); };
+  for (int i = 0; i < 20; ++i) mesh.triangles.push_back({vertex(), vertex(), vertex()});
+  mesh.material_of_triangle.assign(mesh.triangles.size(), 0);
+  return mesh;
 }
 
 TriangleMesh lattice_soup(unsigned seed) {

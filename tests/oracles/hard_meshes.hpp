@@ -18,11 +18,12 @@ struct HardMesh {
 /// quads cut along either diagonal, crowded vertices and edges, tiny and huge coordinates.
 [[nodiscard]] std::vector<HardMesh> hard_meshes();
 
-/// Meshes whose lengths, products or texture areas no float holds.
-[[nodiscard]] std::vector<HardMesh> overflowing_meshes();
-
 /// A few triangles over the points of a small lattice, with few normals and texture coordinates: nearly
 /// everything about them is degenerate, shared, mirrored or crowded. Different for every seed.
 [[nodiscard]] mesh::TriangleMesh lattice_soup(unsigned seed);
+
+/// A few triangles between vertices of zeros of both signs, subnormal and huge numbers. Different for every
+/// seed.
+[[nodiscard]] mesh::TriangleMesh extreme_soup(unsigned seed);
 
 } // namespace surfgrad::test
