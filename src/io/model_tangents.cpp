@@ -75,7 +75,7 @@ std::string named(const Document& document, PrimitivePlace place) {
   std::size_t sets = 0;
   while (primitive_of(document, job.place).attributes.contains(fmt::format("TEXCOORD_{}", sets))) ++sets;
   document.fail(named(document, job.place), fmt::format("has no UV set {}", job.uv_set),
-                sets == 0   ? "unwrap it, or leave --uv out to pass over it"
+                sets == 0   ? "unwrap it, or name no set to pass over it"
                 : sets == 1 ? "it has set 0 only"
                             : fmt::format("it has the sets 0 to {}", sets - 1));
 }
@@ -249,7 +249,7 @@ class Installer {
 /// The primitives of triangles that have the UV set they need; the others are counted and named, or fail.
 std::vector<Job> jobs_of(const Document& document, const TangentOptions& options, ModelWithTangents& model) {
   std::vector<Job> jobs;
-  std::optional<Job> left_out;
+  std::vector<Job> left_out;
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     for (std::size_t p = 0; p < document.model.meshes[m].primitives.size(); ++p) {
       const Job job{{m, p}, 0};
@@ -262,17 +262,20 @@ std::vector<Job> jobs_of(const Document& document, const TangentOptions& options
         continue;
       }
       if (options.uv_set) fail_without_uv(document, {job.place, set});
-      if (!left_out) left_out = {job.place, set};
-      ++model.without_uv;
-      options.report.warn(fmt::format("{}: {} has no UV set {}: it gets no tangents", document.file.string(),
-                                      named(document, job.place), set));
+      left_out.push_back({job.place, set});
     }
-  if (!jobs.empty()) return jobs;
-  if (left_out)
+  model.without_uv = left_out.size();
+  if (!jobs.empty()) {
+    for (const Job& job : left_out)
+      options.report.warn(fmt::format("{}: {} has no UV set {}: it gets no tangents", document.file.string(),
+                                      named(document, job.place), job.uv_set));
+    return jobs;
+  }
+  if (!left_out.empty())
     document.fail("",
-                  fmt::format("no mesh has texture coordinates to make tangents of ({} has no UV set {})",
-                              named(document, left_out->place), left_out->uv_set),
-                  "unwrap the model first");
+                  fmt::format("no mesh has the UV set that its tangents need ({} has no UV set {})",
+                              named(document, left_out[0].place), left_out[0].uv_set),
+                  "unwrap the model, or name a set that it has");
   document.fail("", "has no mesh of triangles", "expected at least one");
 }
 

@@ -89,7 +89,7 @@ TEST(TangentsCommand, BadInputIsRefusedInOneLineAndNothingIsWritten) {
       {{"tangents", "m.obj", "-o", "a.glb", "--uv", "1"},
        1,
        {"m.obj", "meshes[0].primitives[0]", "no UV set 1", "set 0 only"}},
-      {{"tangents", "bare.obj", "-o", "a.glb"}, 1, {"bare.obj", "no mesh has texture coordinates", "unwrap"}},
+      {{"tangents", "bare.obj", "-o", "a.glb"}, 1, {"bare.obj", "no mesh has the UV set", "unwrap"}},
       {{"tangents", "gone.glb", "-o", "a.glb"}, 1, {"gone.glb"}},
       {{"tangents", "m.obj", "-o", "a.gltf"}, 1, {"a.gltf", "expected .glb"}},
       {{"tangents", "m.obj", "-o", "no/a.glb"}, 1, {"no"}},
