@@ -2,7 +2,7 @@
 //
 // Surface gradient based bump mapping: the functions of include/surfgrad in HLSL.
 //
-// One self-contained file, for shader model 5.0 and newer (FXC, DXC, glslang; any stage): #include it.
+// One self-contained file, for shader model 5.0 and newer (any stage; the tests compile it by glslang): #include it.
 // surfgrad_name is surfgrad::name of the C++ core; what a function means is said there at length and here
 // in short.
 //
