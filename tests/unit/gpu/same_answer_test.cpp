@@ -6,6 +6,9 @@
 #include "golden/golden_scenes.hpp"
 #include "gpu/backend.hpp"
 #include "render/render.hpp"
+#include "scene/demo_maps.hpp"
+#include "stack/uses.hpp"
+#include "stacks.hpp"
 #include "support/angle.hpp"
 #include "support/vulkan.hpp"
 
@@ -153,6 +156,51 @@ void compare_figures(const gpu::Backend& backend, bool with_heights) {
 
 TEST_F(SameAnswer, RendersTheGallerysHeights) { compare_figures(backend(), true); }
 TEST_F(SameAnswer, RendersTheRestOfTheGallery) { compare_figures(backend(), false); }
+
+/// Plates with stripes as opacity: something to read for every kind of layer.
+image::Image normals_with_opacity(int size) {
+  const image::Image normals = scene::plates_normal_map(size);
+  const image::Image stripes = scene::stripes_mask(size);
+  image::Image all = image::make_image(size, size, 4, image::Depth::unorm16);
+  all.has_alpha = true;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      for (int c = 0; c < 3; ++c) all.at(x, y, c) = normals.at(x, y, c);
+      all.at(x, y, 3) = stripes.at(x, y, 0);
+    }
+  return all;
+}
+
+/// Six faces in a row.
+image::Image six_faces(int size) {
+  const image::Image face = scene::weave_normal_map(size);
+  image::Image cube = image::make_image(6 * size, size, 3, image::Depth::unorm16);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < 6 * size; ++x)
+      for (int c = 0; c < 3; ++c) cube.at(x, y, c) = face.at(x % size, y, c);
+  return cube;
+}
+
+/// The demo's torus under another stack.
+scene::Scene torus_under(const shadergen::test::NamedStack& stack) {
+  scene::Scene scene = scene::demo_scene();
+  const auto map = std::make_shared<const image::Image>(normals_with_opacity(64));
+  const auto cube = std::make_shared<const image::Image>(six_faces(32));
+  scene.materials[0].layers = stack.layers;
+  scene.materials[0].back_faces = stack.back_faces;
+  scene.displace = stack.displace;
+  for (stack::Layer& layer : scene.materials[0].layers)
+    for (const stack::FileName* file : stack::files_of(layer))
+      scene.images[file->path] = file->path.extension() == ".exr" ? cube : map;
+  if (scene.displace && scene.displace->map) scene.images[scene.displace->map->file.path] = map;
+  return scene;
+}
+
+TEST_F(SameAnswer, RendersEveryKindOfLayer) {
+  Largest largest;
+  for (const shadergen::test::NamedStack& stack : shadergen::test::every_kind())
+    largest.compare(backend(), torus_under(stack), stack.name);
+}
 
 TEST_F(SameAnswer, RendersRealModels) {
   if (!std::filesystem::exists(shared_assets())) GTEST_SKIP() << "no real assets at " << shared_assets();
