@@ -14,9 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <set>
 #include <vector>
 
 namespace surfgrad::test {
@@ -95,15 +93,6 @@ class SameAnswer : public VulkanTest {
   inline static std::unique_ptr<gpu::Backend> shared_backend;
 };
 
-/// Figures whose panels differ in what their layers do. Of the others, which vary meshes, transforms and
-/// numbers, one panel stands for all, so that compiling shaders does not take the better part of all tests'
-/// time; SURFGRAD_WHOLE_GALLERY in the environment takes every one.
-bool differs_in_layers(const std::string& figure) {
-  static const std::set<std::string> all{"noise",    "projections",       "decals",     "decal-blends",
-                                         "parallax", "magnified-heights", "back-faces", "influences"};
-  return all.contains(figure) || std::getenv("SURFGRAD_WHOLE_GALLERY") != nullptr;
-}
-
 /// Heights and what rays meet: half of the time.
 bool has_heights(const std::string& figure) {
   return figure.find("heights") != std::string::npos || figure.find("parallax") != std::string::npos;
@@ -149,7 +138,6 @@ void compare_figures(const gpu::Backend& backend, bool with_heights) {
   for (const gallery::Figure& figure : gallery::built_in_figures())
     for (const gallery::Panel& panel : figure.panels) {
       if (has_heights(figure.id) != with_heights) continue;
-      if (&panel != &figure.panels.front() && !differs_in_layers(figure.id)) continue;
       largest.compare(backend, panel.scene(), figure.id + ", " + panel.id);
     }
 }
