@@ -181,6 +181,13 @@ void append_u32(std::vector<std::byte>& bytes, std::size_t value) {
 
 } // namespace
 
+void erase_extension(nlohmann::ordered_json& value, const char* name) {
+  const auto extensions = value.find("extensions");
+  if (extensions == value.end()) return;
+  extensions->erase(name);
+  if (extensions->empty()) value.erase("extensions");
+}
+
 std::string PrimitivePlace::text() const { return fmt::format("meshes[{}].primitives[{}]", mesh, primitive); }
 
 Edit::Edit(const std::filesystem::path& file, std::span<const std::byte> bytes)
@@ -295,9 +302,7 @@ void Edit::place_views() {
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i]["buffer"] = 0;
     all[i]["byteOffset"] = total;
-    // The compressed twin of these bytes lies in a buffer that is no more.
-    if (const auto extensions = all[i].find("extensions"); extensions != all[i].end())
-      extensions->erase("EXT_meshopt_compression");
+    erase_extension(all[i], "EXT_meshopt_compression"); // its bytes lay in a buffer that is no more
     total += aligned(is_new[i] ? bytes[i].size() : document_.bytes_of_view(static_cast<int>(i)).size());
     if (total > most_bytes)
       document_.fail("", fmt::format("would have more than {} bytes as .glb", most_bytes),
@@ -318,6 +323,7 @@ std::vector<std::byte> Edit::glb(const Report& report) {
   place_views();
   Json buffer = json_["buffers"].empty() ? Json::object() : json_["buffers"][0];
   buffer.erase("uri");
+  erase_extension(buffer, "EXT_meshopt_compression");
   buffer["byteLength"] = binary_.size();
   json_["buffers"] = Json::array({std::move(buffer)});
 

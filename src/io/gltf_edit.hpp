@@ -24,6 +24,9 @@ struct PrimitivePlace {
   [[nodiscard]] std::string text() const;
 };
 
+/// Takes an extension away from a value, and the list of its extensions where none is left.
+void erase_extension(nlohmann::ordered_json& value, const char* name);
+
 /// Numbers for a new accessor.
 struct AccessorData {
   int type = 0;           ///< TINYGLTF_TYPE_*

@@ -206,10 +206,7 @@ class Installer {
                                      .bits = result_->indices},
                                     source_->indices);
     written.erase("mode"); // a list of triangles
-    if (const auto extensions = written.find("extensions"); extensions != written.end()) {
-      extensions->erase("KHR_draco_mesh_compression");
-      if (extensions->empty()) written.erase("extensions");
-    }
+    gltf::erase_extension(written, "KHR_draco_mesh_compression");
   }
 
  private:

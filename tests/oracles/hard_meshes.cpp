@@ -192,7 +192,7 @@ std::vector<HardMesh> hard_meshes() {
 }
 
 TriangleMesh extreme_soup(unsigned seed) {
-  constexpr std::array values{0.0f,   -0.0f,   1.0f,   -1.0f, 2.0f,  0.5f,
+  constexpr std::array values{0.0f,   -0.0f,   1.0f,   -1.0f, 2.0f, 0.5f,
                               1e-42f, -1e-38f, 1e-20f, 1e15f, 3e9f, -1e12f};
   Random random(seed);
   const auto any = [&] { return values[static_cast<std::size_t>(random.integer(values.size()))]; };

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -71,18 +71,26 @@ std::vector<std::vector<vec4<float>>> package_tangents(const std::vector<std::st
   return results;
 }
 
-std::string validator_errors(const std::filesystem::path& file) {
-  const std::string words = run_node("validate.mjs", fmt::format("'{}'", file.string()));
+std::string validator_errors(const std::vector<std::filesystem::path>& files) {
+  std::string arguments;
+  for (const auto& file : files) arguments += fmt::format(" '{}'", file.string());
+  const std::string words = run_node("validate.mjs", arguments);
   std::string errors;
-  bool is_counted = false;
-  for (std::size_t begin = 0; begin < words.size();) {
-    const std::size_t end = std::min(words.find('\n', begin), words.size() - 1);
-    const std::string_view line = std::string_view(words).substr(begin, end + 1 - begin);
-    if (line.starts_with(file.string() + ": error ")) errors += line;
-    if (line.starts_with(file.string() + ": 0 errors")) is_counted = true;
-    begin = end + 1;
-  }
-  return errors.empty() && !is_counted ? words : errors;
+  std::size_t judged = 0;
+  std::istringstream lines(words);
+  for (std::string line; std::getline(lines, line);)
+    for (const auto& file : files) {
+      const std::string name = file.string() + ": ";
+      if (!line.starts_with(name)) continue;
+      const std::string_view said = std::string_view(line).substr(name.size());
+      if (said.starts_with("error ")) errors += line + "\n";
+      if (said.find(" errors, ") == said.npos) continue;
+      ++judged;
+      // More than are listed, or a count without a list, must not pass.
+      if (!said.starts_with("0 errors, ")) errors += line + "\n";
+    }
+  if (judged != files.size()) throw std::runtime_error("the validator judged too few files\n" + words);
+  return errors;
 }
 
 } // namespace surfgrad::test

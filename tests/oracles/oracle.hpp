@@ -16,7 +16,8 @@ namespace surfgrad::test {
 /// The tangents of the npm package `mikktspace`, one list a file of corners_of. Throws where it fails.
 [[nodiscard]] std::vector<std::vector<vec4<float>>> package_tangents(const std::vector<std::string>& meshes);
 
-/// What the Khronos validator finds wrong with a glTF file: a line for each error; empty where there is none.
-[[nodiscard]] std::string validator_errors(const std::filesystem::path& file);
+/// What the Khronos validator finds wrong with glTF files: a line for each error; empty where there is none.
+/// One call for many files: it takes longer to start than to judge. Throws where it has not judged all.
+[[nodiscard]] std::string validator_errors(const std::vector<std::filesystem::path>& files);
 
 } // namespace surfgrad::test

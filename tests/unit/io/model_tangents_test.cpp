@@ -10,9 +10,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <bit>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <numeric>
 #include <string>
 
@@ -384,6 +387,85 @@ TEST(ModelTangents, OfDamagedDocumentsAreRefused) {
   EXPECT_THROW((void)add_tangents(folder.write("deep.gltf", text)), InputError);
   EXPECT_THROW((void)add_tangents(folder.path() / "gone.glb"), InputError);
   EXPECT_THROW((void)add_tangents(folder.write("a.stl", "solid")), InputError);
+}
+
+TEST(ModelTangents, DropDataForDecodersThatLieBesideThePlainData) {
+  Gltf document = mirrored_quads();
+  document.json["extensionsUsed"] = {"EXT_meshopt_compression", "KHR_draco_mesh_compression"};
+  const json compressed = {{"buffer", 1},      {"byteOffset", 0}, {"byteLength", 4},
+                           {"byteStride", 12}, {"count", 6},      {"mode", "ATTRIBUTES"}};
+  for (json& view : document.json["bufferViews"]) view["extensions"]["EXT_meshopt_compression"] = compressed;
+  document.json["bufferViews"][0]["extensions"]["VENDOR_other"] = json::object();
+  const std::string uri = "data:application/octet-stream;base64,";
+  document.json["buffers"] = {{{"byteLength", document.buffer.size()},
+                               {"uri", uri + test::base64(document.buffer)},
+                               {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}},
+                              {{"byteLength", 3}, {"uri", uri + test::base64("abc")}}};
+  json& primitive = document.json["meshes"][0]["primitives"][0];
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
+                                                           {"attributes", {{"POSITION", 0}}}};
+  const Glb file(tangents_of(document).glb);
+  ASSERT_EQ(file.document["buffers"].size(), 1u);
+  EXPECT_FALSE(file.document["buffers"][0].contains("extensions"));
+  EXPECT_FALSE(file.document["meshes"][0]["primitives"][0].contains("extensions"));
+  EXPECT_EQ(file.document["bufferViews"][0]["extensions"], json({{"VENDOR_other", json::object()}}));
+  for (std::size_t i = 1; i < file.document["bufferViews"].size(); ++i)
+    EXPECT_FALSE(file.document["bufferViews"][i].contains("extensions")) << i;
+}
+
+TEST(ModelTangents, DoNotDependOnTheNumberOfThreads) {
+  Gltf document;
+  json primitives;
+  for (int p = 0; p < 8; ++p) {
+    const mesh::TriangleMesh mesh = support::half_mirrored_torus(8 + p, 6);
+    const auto floats = [](const auto& vectors) {
+      std::vector<float> values(vectors.size() * sizeof vectors[0] / sizeof(float));
+      std::memcpy(values.data(), vectors.data(), values.size() * sizeof(float));
+      return values;
+    };
+    std::vector<std::uint16_t> indices;
+    for (const auto& triangle : mesh.triangles)
+      indices.insert(indices.end(), triangle.begin(), triangle.end());
+    const std::size_t positions = document.accessor<float>(floats(mesh.positions), "VEC3");
+    const std::size_t normals = document.accessor<float>(floats(mesh.normals), "VEC3");
+    const std::size_t uvs = document.accessor<float>(floats(mesh.uv_sets[0]), "VEC2");
+    primitives.push_back({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
+                          {"indices", document.accessor<std::uint16_t>(indices, "SCALAR")}});
+  }
+  document.mesh(primitives);
+  const auto on = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return tangents_of(document).glb;
+  };
+  const std::vector<std::byte> alone = on(1);
+  EXPECT_EQ(on(2), alone);
+  EXPECT_EQ(on(7), alone);
+}
+
+/// Tangents that another program wrote, made for the mirrored half as well.
+TEST(ModelTangents, HaveTheDirectionsAndSignsOfTheKhronosMirrorTest) {
+  const std::filesystem::path file = std::filesystem::path(SURFGRAD_SHARED_DIR) / "assets" / "mesh" /
+                                     "khr_NormalTangentMirrorTest" / "NormalTangentMirrorTest.glb";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared assets at " << file;
+  const Model theirs = read_model(file);
+  const Model ours = read_back(add_tangents(file));
+  std::size_t corners = 0;
+  std::size_t opposed = 0;
+  std::size_t aside = 0;
+  for (std::size_t m = 0; m < theirs.meshes.size(); ++m) {
+    const auto& expected = theirs.meshes[m].tangent_spaces.at(0).corners;
+    const auto& made = ours.meshes.at(m).tangent_spaces.at(0).corners;
+    ASSERT_EQ(made.size(), expected.size());
+    corners += made.size();
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      opposed += made[i].w != expected[i].w;
+      aside += made[i].x * expected[i].x + made[i].y * expected[i].y + made[i].z * expected[i].z < 0.99f;
+    }
+  }
+  std::printf("  %zu corners, %zu with another sign, %zu more than 8 degrees aside\n", corners, opposed,
+              aside);
+  EXPECT_EQ(opposed, 0u);
+  EXPECT_EQ(aside, 0u);
 }
 
 TEST(ModelTangents, StopWhenAsked) {
