@@ -188,8 +188,6 @@ void erase_extension(nlohmann::ordered_json& value, const char* name) {
   if (extensions->empty()) value.erase("extensions");
 }
 
-std::string PrimitivePlace::text() const { return fmt::format("meshes[{}].primitives[{}]", mesh, primitive); }
-
 Edit::Edit(const std::filesystem::path& file, std::span<const std::byte> bytes)
     : document_(read_document(file, bytes)), json_(read_json(file, bytes)), originals_(json_["accessors"]),
       pinned_(pinned_indices(json_)) {}
@@ -235,6 +233,14 @@ int Edit::add(const AccessorData& data, int like) {
   view.bytes = packed(data, stride);
   if (stride != element) view.json["byteStride"] = stride;
   view.json["target"] = data.is_index ? TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER : TINYGLTF_TARGET_ARRAY_BUFFER;
+  return index;
+}
+
+int Edit::add_image(std::vector<std::byte> bytes, const std::string& media_type, const std::string& name) {
+  Json& images = json_["images"];
+  const auto index = static_cast<int>(images.size());
+  images.push_back({{"name", name}, {"mimeType", media_type}});
+  views_[-1 - index].bytes = std::move(bytes);
   return index;
 }
 

@@ -2,6 +2,7 @@
 
 #include "diagnostic/report.hpp"
 #include "io/gltf_document.hpp"
+#include "io/gltf_scene.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -15,14 +16,6 @@
 #include <vector>
 
 namespace surfgrad::io::gltf {
-
-/// Where a primitive stands: meshes[mesh].primitives[primitive].
-struct PrimitivePlace {
-  std::size_t mesh = 0;
-  std::size_t primitive = 0;
-
-  [[nodiscard]] std::string text() const;
-};
 
 /// Takes an extension away from a value, and the list of its extensions where none is left.
 void erase_extension(nlohmann::ordered_json& value, const char* name);
@@ -45,7 +38,8 @@ class Edit {
 
   /// The document as it was read.
   [[nodiscard]] const Document& document() const { return document_; }
-  /// Of the document as it will be. Never null.
+  /// The document as it will be. Of the part that is described in Document the types are right.
+  [[nodiscard]] nlohmann::ordered_json& json() { return json_; }
   [[nodiscard]] nlohmann::ordered_json& primitive(PrimitivePlace place);
 
   /// The accessors of these primitives are no longer used there: add() writes over those that nothing else
@@ -54,6 +48,10 @@ class Edit {
   /// The index of a new accessor. `like` is one of the document whose properties it takes over (its name,
   /// whether it is normalized), or -1.
   [[nodiscard]] int add(const AccessorData& data, int like);
+
+  /// The index of a new image in the file.
+  [[nodiscard]] int add_image(std::vector<std::byte> bytes, const std::string& media_type,
+                              const std::string& name);
 
   /// The whole file. All buffers become one, and images that lie in files or in the document move into it;
   /// a warning tells which cannot, because what they are is not known. Once.

@@ -159,4 +159,15 @@ std::vector<ModelMaterial> read_materials(const Document& document, const Report
   return materials;
 }
 
+image::Image read_texture(const Document& document, int texture, const std::string& place) {
+  const std::vector<tinygltf::Texture>& textures = document.model.textures;
+  if (texture < 0 || static_cast<std::size_t>(texture) >= textures.size())
+    document.fail(place + ".index", "names no texture", fmt::format("expected one of {}", textures.size()));
+  const int source = textures[static_cast<std::size_t>(texture)].source;
+  if (source < 0)
+    document.fail(fmt::format("textures[{}]", texture), "\"source\" is missing",
+                  "expected the key \"source\" here");
+  return *read_named_image(document, source).image;
+}
+
 } // namespace surfgrad::io::gltf

@@ -237,6 +237,7 @@ Scene load_document(const fs::path& file, const Report& report) {
   if (!document.mesh) refuse_weights_of_the_demo(document);
   const fs::path model = document.mesh ? beside(file, document.mesh->path) : fs::path();
   scene.model = model;
+  scene.morph_weights = document.morph.weights;
   Files files(document, model, report);
   if (document.mesh) {
     place_model(take_model(model, document, files), scene);

@@ -33,8 +33,9 @@ struct Object {
 /// A stack with all it names, loaded. Every index is in range, every image a layer names is there,
 /// every mesh has the UV sets that its materials' layers read, and that a displacement's map reads.
 struct Scene {
-  std::filesystem::path source{}; ///< document or model it came from, for messages; empty: the demo
-  std::filesystem::path model{};  ///< file that the meshes came from; empty: the demo's
+  std::filesystem::path source{};      ///< document or model it came from, for messages; empty: the demo
+  std::filesystem::path model{};       ///< file that the meshes came from; empty: the demo's
+  std::vector<double> morph_weights{}; ///< that it was read with: io::ModelOptions
   std::vector<mesh::TriangleMesh> meshes{};
   std::vector<Object> objects{};
   std::vector<Material> materials{}; ///< what TriangleMesh::material_of_triangle indexes
