@@ -6,6 +6,7 @@
 #include "io/model_file.hpp"
 #include "mesh/mikktspace.hpp"
 #include "support/meshes.hpp"
+#include "unit/io/glb_file.hpp"
 #include "unit/io/gltf_builder.hpp"
 
 #include <gmock/gmock.h>
@@ -23,45 +24,13 @@ namespace surfgrad::io {
 namespace {
 
 using nlohmann::json;
+using test::Glb;
 using test::Gltf;
 using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 namespace support = surfgrad::test;
-
-/// A written file: its JSON and its binary chunk.
-struct Glb {
-  json document;
-  std::string binary;
-
-  explicit Glb(const std::vector<std::byte>& file) {
-    const auto word = [&](std::size_t offset) {
-      std::uint32_t value = 0;
-      std::memcpy(&value, file.data() + offset, sizeof value);
-      return value;
-    };
-    const char* first = reinterpret_cast<const char*>(file.data());
-    EXPECT_EQ(word(8), file.size());
-    const std::size_t text = word(12);
-    document = json::parse(std::string(first + 20, text));
-    binary.assign(first + 20 + text + 8, word(20 + text));
-    EXPECT_EQ(document["buffers"][0]["byteLength"], binary.size());
-  }
-
-  [[nodiscard]] std::string view(std::size_t index) const {
-    const json& entry = document["bufferViews"][index];
-    return binary.substr(entry["byteOffset"], entry["byteLength"]);
-  }
-  /// The elements of an accessor that fills its view.
-  template <class T>
-  [[nodiscard]] std::vector<T> elements(const json& accessor) const {
-    const std::string bytes = view(document["accessors"][accessor.get<std::size_t>()]["bufferView"]);
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
-  }
-};
 
 ModelWithTangents tangents_of(const Gltf& document, const TangentOptions& options = {}) {
   const TemporaryFolder folder;
