@@ -14,7 +14,7 @@ namespace {
 
 struct BakeCommand {
   CommonOptions common;
-  bake::Options job;
+  bake::Options job{.padding = 16}; // mip levels down to a sixteenth stay within the island
 };
 
 void warn_about(const bake::Counts& baked, Console& console) {
@@ -59,6 +59,7 @@ void run(BakeCommand& command) {
                         {"width", size.width},
                         {"height", size.height},
                         {"covered_texels", baked.covered},
+                        {"padded_texels", baked.padded},
                         {"triangles_outside", baked.outside},
                         {"overlapping_texels", baked.overlapping},
                         {"singular_texels", baked.singular},
@@ -90,6 +91,12 @@ void add_bake_command(CLI::App& program) {
       ->transform(one_of(spaces))
       ->type_name("NAME")
       ->option_text("NAME");
+  verb.add_option("--padding", command->job.padding,
+                  "texels around the islands that repeat their border, so that filters and mip levels\n"
+                  "do not show what lies between; 0 for none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 256)) // a window of that many rows is kept
+      ->type_name("N");
   verb.callback([command] { run(*command); });
 }
 

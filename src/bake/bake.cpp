@@ -1,6 +1,7 @@
 #include "bake/bake.hpp"
 
 #include "bake/encode.hpp"
+#include "bake/padding.hpp"
 #include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
 #include "simd/lane.hpp"
@@ -100,7 +101,8 @@ class Bands {
       texel[2] = b;
     };
     if (composed.count < tile.width * tile.height)
-      for (std::size_t i = 0; i < own.texel_of.size(); ++i) put(i, 0.5f, 0.5f, 1.0f);
+      for (std::size_t i = 0; i < own.texel_of.size(); ++i)
+        put(i, options_.padding > 0 ? uncovered : 0.5f, 0.5f, 1.0f);
     for (int i = 0; i < composed.count; ++i)
       put(static_cast<std::size_t>(composed.pixel[i]), work.code.x[i], work.code.y[i], work.code.z[i]);
     const auto set = [&](const float* flags) {
@@ -132,10 +134,14 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
   const scene::Scene& scene = displaced ? displaced->scene : asked;
   const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report, options.backend);
   Bands bands(stage, scene, options);
+  Padding padding(options.width, options.height, options.padding, {0.5f, 0.5f, 1.0f}, take);
+  const auto pad = [&](const image::Image& band) { padding.add(band); };
   stage::for_each_band(
       bands.count(), report,
-      [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); }, take);
+      [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); },
+      options.padding > 0 ? stage::BandSink(pad) : take);
   Counts counts = bands.counts();
+  counts.padded = padding.padded();
   counts.outside = triangles_outside(stage.surfaces(), stage.slot_of(0));
   if (counts.covered == 0)
     throw InputError({.file = scene.source,

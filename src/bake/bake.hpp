@@ -22,11 +22,14 @@ struct Options {
   int height = 1024;
   Space space = Space::tangent;
   const stage::Backend* backend = nullptr; ///< composes in the engine's stead
+  /// Texels that no surface covers take the value of the nearest covered one within so many texels; 0: none.
+  int padding = 0;
 };
 
 /// What was odd about a bake.
 struct Counts {
   std::int64_t covered = 0;
+  std::int64_t padded = 0;      ///< texels that no surface covers, with the value of one that it does
   std::int64_t outside = 0;     ///< triangles that reach beyond [0, 1]^2: what lies there is not in the map
   std::int64_t overlapping = 0; ///< texels that more than one triangle covers; the lowest index wins
   /// Texels whose vertex frame (or, in object space, transform) cannot be inverted: (0, 0, 1).
@@ -37,7 +40,7 @@ struct Counts {
 
 /// A map and what was odd about it.
 struct Baked : Counts {
-  image::Image map; ///< rgb, n / 2 + 1/2; (0, 0, 1) where no surface lies
+  image::Image map; ///< rgb, n / 2 + 1/2; (0, 0, 1) where no surface lies, unless padded
 };
 
 /// Bakes a scene's stack into one normal map over UV set 0, at texel centres; of a scene with a
