@@ -37,15 +37,8 @@ std::vector<float> Format::flat() const {
   return texel;
 }
 
-Format::Encoded Format::encode(vec3<float> normal, float* texel) const {
-  normal.y *= green_sign_;
+Format::Encoded Format::encode_slopes(vec3<float> normal, float* texel) const {
   Encoded result;
-  if (encoding_ != Encoding::derivative) {
-    texel[0] = 0.5f * normal.x + 0.5f;
-    texel[1] = 0.5f * normal.y + 0.5f;
-    if (channels_ == 3) texel[2] = encoding_ == Encoding::rgb ? 0.5f * normal.z + 0.5f : 1.0f;
-    return result;
-  }
   vec2<float> slope = derivative_from_normal(normal);
   result.steepest = max_abs(slope);
   if (codes_ && result.steepest > static_cast<float>(range_)) {

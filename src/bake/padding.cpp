@@ -41,8 +41,9 @@ void Padding::push(const image::Image& band, int y) {
 /// First pass of an exact distance transform: along the columns.
 void Padding::find_vertically(int from_top) {
   const int last = std::min(from_top + reach_, received_ - 1);
+  const std::vector<std::uint8_t>& own = row(from_top).covered;
   for (std::size_t x = 0; x < above_.size(); ++x) {
-    if (row(from_top).covered[x] != 0) {
+    if (own[x] != 0) {
       above_[x] = from_top;
       nearest_[x] = from_top;
       continue;
