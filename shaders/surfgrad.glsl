@@ -281,7 +281,7 @@ const float SURFGRAD_MAX_SLOPE = 128.0; // steeper slopes are clamped: 89.55 deg
 // source      Mikkelsen 2019, equation 4, with the clamp of listing 4
 vec2 surfgrad_derivative_from_normal(vec3 m) {
   float steepest = max(abs(m.x), abs(m.y)) * (1.0 / SURFGRAD_MAX_SLOPE);
-  return m.xy * (-1.0 / max(max(steepest, abs(m.z)), SURFGRAD_LEAST));
+  return m.xy * (-1.0 / max(max(abs(m.z), SURFGRAD_LEAST), steepest));
 }
 
 // Derivative of a tangent-space normal given by two channels, the third reconstructed.

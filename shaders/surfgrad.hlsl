@@ -2,7 +2,7 @@
 //
 // Surface gradient based bump mapping: the functions of include/surfgrad in HLSL.
 //
-// One self-contained file, for shader model 5.0 and newer (FXC, DXC, glslang; any stage): #include it.
+// One self-contained file, for shader model 5.0 and newer (any stage; the tests compile it by glslang): #include it.
 // surfgrad_name is surfgrad::name of the C++ core; what a function means is said there at length and here
 // in short.
 //
@@ -285,7 +285,7 @@ static const float SURFGRAD_MAX_SLOPE = 128.0; // steeper slopes are clamped: 89
 // source      Mikkelsen 2019, equation 4, with the clamp of listing 4
 float2 surfgrad_derivative_from_normal(float3 m) {
   float steepest = max(abs(m.x), abs(m.y)) * (1.0 / SURFGRAD_MAX_SLOPE);
-  return m.xy * (-1.0 / max(max(steepest, abs(m.z)), SURFGRAD_LEAST));
+  return m.xy * (-1.0 / max(max(abs(m.z), SURFGRAD_LEAST), steepest));
 }
 
 // Derivative of a tangent-space normal given by two channels, the third reconstructed.

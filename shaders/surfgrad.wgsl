@@ -291,7 +291,7 @@ const SURFGRAD_MAX_SLOPE: f32 = 128.0; // steeper slopes are clamped: 89.55 degr
 // source      Mikkelsen 2019, equation 4, with the clamp of listing 4
 fn surfgrad_derivative_from_normal(m: vec3f) -> vec2f {
   let steepest = max(abs(m.x), abs(m.y)) * (1.0 / SURFGRAD_MAX_SLOPE);
-  return m.xy * (-1.0 / max(max(steepest, abs(m.z)), SURFGRAD_LEAST));
+  return m.xy * (-1.0 / max(max(abs(m.z), SURFGRAD_LEAST), steepest));
 }
 
 // Derivative of a tangent-space normal given by two channels, the third reconstructed.

@@ -97,6 +97,7 @@ void check_is_no_input(const scene::Scene& scene, const std::filesystem::path& o
           {.file = output, .problem = "would replace a file of the scene", .remedy = "give -o another name"});
   };
   check(scene.source);
+  check(scene.model);
   for (const auto& [file, image] : scene.images) check(file);
 }
 
@@ -177,7 +178,7 @@ CLI::Validator identifier() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         if (shadergen::is_name(text)) return {};
-        return fmt::format("\"{}\" is not a lower-case letter followed by letters and digits", text);
+        return fmt::format("\"{}\" is not a lower-case letter followed by letters and digits, or is taken", text);
       },
       "");
 }

@@ -239,7 +239,10 @@ void Device::run(const std::function<void(VkCommandBuffer)>& record) const {
   submit.pCommandBuffers = &commands;
   check(vkQueueSubmit(queue_, 1, &submit, made), doing);
   lock.unlock(); // others submit while these run
-  check(vkWaitForFences(device, 1, &made, VK_TRUE, UINT64_MAX), doing);
+  const VkResult waited = vkWaitForFences(device, 1, &made, VK_TRUE, UINT64_MAX);
+  // For want of memory it may fail while the commands still run.
+  if (waited != VK_SUCCESS) vkDeviceWaitIdle(device);
+  check(waited, doing);
 }
 
 } // namespace surfgrad::gpu

@@ -19,10 +19,10 @@ namespace surfgrad::gpu {
 /// The engine's maps that a generated shader with `exact` access reads.
 class StackMaps {
  public:
-  /// format_of  of the textures that are sampled
+  /// format_of  of the textures that are sampled, if any are
   /// throws     InputError where an image does not serve for its map
   StackMaps(const shadergen::Shader& shader, engine::MapLibrary& library,
-            const std::function<TextureFormat(const image::Map&, stack::Filter)>& format_of);
+            const std::function<TextureFormat(const image::Map&, stack::Filter)>& format_of = {});
 
   /// In the order of Shader::textures, a relief's twice.
   [[nodiscard]] const std::vector<StackMap>& maps() const { return maps_; }

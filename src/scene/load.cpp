@@ -236,6 +236,7 @@ Scene load_document(const fs::path& file, const Report& report) {
   scene.source = file;
   if (!document.mesh) refuse_weights_of_the_demo(document);
   const fs::path model = document.mesh ? beside(file, document.mesh->path) : fs::path();
+  scene.model = model;
   Files files(document, model, report);
   if (document.mesh) {
     place_model(take_model(model, document, files), scene);
@@ -273,6 +274,7 @@ Scene load_scene(const fs::path& file, const Report& report) {
   if (extension == ".json") return load_document(file, report);
   Scene scene;
   scene.source = file;
+  scene.model = file;
   place_model(io::read_model(file, {.morph_weights = {}, .report = report}), scene);
   check_uv_sets(scene, file, file);
   return scene;

@@ -34,6 +34,7 @@ struct Object {
 /// every mesh has the UV sets that its materials' layers read, and that a displacement's map reads.
 struct Scene {
   std::filesystem::path source{}; ///< document or model it came from, for messages; empty: the demo
+  std::filesystem::path model{};  ///< file that the meshes came from; empty: the demo's
   std::vector<mesh::TriangleMesh> meshes{};
   std::vector<Object> objects{};
   std::vector<Material> materials{}; ///< what TriangleMesh::material_of_triangle indexes

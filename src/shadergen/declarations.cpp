@@ -216,7 +216,7 @@ std::string godot(const Shader& shader) {
 void check_registers(const Shader& shader, const Options& options) {
   constexpr int buffers = 14, textures = 128, samplers = 16; // D3D11_COMMONSHADER_*_COUNT
   if (shader.language != Language::hlsl || shader.group > 0) return;
-  const std::string remedy = "begin lower, or in a space from 1 on";
+  const std::string remedy = "give a lower --first-binding, or a space by --group 1";
   const auto check = [&](const char* what, char kind, int number, int count) {
     if (number >= count)
       throw InputError({.file = options.document,

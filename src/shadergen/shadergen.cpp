@@ -97,12 +97,19 @@ std::string key_of(const stack::Layer& layer) {
       layer);
 }
 
+/// A name as a line comment can hold it: no line ends, and no backslash that would take the next line along.
+std::string in_comment(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\\' || c == 0x7f) c = '?';
+  return name;
+}
+
 /// The names of a layer's files, for a comment.
 std::string maps_of(const stack::Layer& layer) {
   stack::Layer copy = layer; // files_of gives what can be changed
   std::string names;
   for (const stack::FileName* file : stack::files_of(copy))
-    names += (names.empty() ? "" : ", ") + file->path.filename().string();
+    names += (names.empty() ? "" : ", ") + in_comment(file->path.filename().string());
   return names;
 }
 
@@ -188,21 +195,36 @@ std::string result_struct(const Shader& shader, const Options& options) {
 
 /// The surface with its derivatives across pixels.
 std::string derivatives_function(const Shader& shader) {
+  const bool godot = shader.language == Language::godot;
+  const char* const ddx = godot ? "dFdx" : "SURFGRAD_DDX";
+  const char* const ddy = godot ? "dFdy" : "SURFGRAD_DDY";
   std::string lines;
   for (const SurfaceMember& m : shader.surface) {
     const std::string st = fmt::format("s.st{}", m.uv);
     const auto differentiate = [&](const char* function, const std::string& what) {
       lines += fmt::format("  t.{} = {}({});\n", m.name, function, what);
     };
-    if (m.role == Role::dp_dx) differentiate("dFdx", "s.position");
-    if (m.role == Role::dp_dy) differentiate("dFdy", "s.position");
-    if (m.role == Role::dst_dx) differentiate("dFdx", st);
-    if (m.role == Role::dst_dy) differentiate("dFdy", st);
-    if (m.role == Role::dn_dx) differentiate("dFdx", "s.normal");
-    if (m.role == Role::dn_dy) differentiate("dFdy", "s.normal");
+    if (m.role == Role::dp_dx) differentiate(ddx, "s.position");
+    if (m.role == Role::dp_dy) differentiate(ddy, "s.position");
+    if (m.role == Role::dst_dx) differentiate(ddx, st);
+    if (m.role == Role::dst_dy) differentiate(ddy, st);
+    if (m.role == Role::dn_dx) differentiate(ddx, "s.normal");
+    if (m.role == Role::dn_dy) differentiate(ddy, "s.normal");
   }
   if (lines.empty()) return {};
-  return "// A fragment's surface, its derivatives filled in. Call it in uniform control flow.\n"
+  // As in the library, which is perhaps not there. Fine where the version has them: coarse ones make blocks.
+  const std::string macros = shader.language == Language::glsl ? "#ifndef SURFGRAD_DDX\n"
+                                                                 "#ifdef GL_ES\n"
+                                                                 "#define SURFGRAD_DDX dFdx\n"
+                                                                 "#define SURFGRAD_DDY dFdy\n"
+                                                                 "#else\n"
+                                                                 "#define SURFGRAD_DDX dFdxFine\n"
+                                                                 "#define SURFGRAD_DDY dFdyFine\n"
+                                                                 "#endif\n"
+                                                                 "#endif\n"
+                                                               : "";
+  return macros +
+         "// A fragment's surface, its derivatives filled in. Call it in uniform control flow.\n"
          "StackSurface stack_with_derivatives(StackSurface s) {\n  StackSurface t = s;\n" +
          lines + "  return t;\n}\n";
 }
@@ -263,7 +285,8 @@ Common written(const std::vector<stack::Layer>& layers, const Options& options, 
 }
 
 std::string comment_block(const Options& options, const Shader& shader, bool differentiates) {
-  const std::string file = options.document.empty() ? "a stack" : options.document.filename().string();
+  const std::string file =
+      options.document.empty() ? "a stack" : in_comment(options.document.filename().string());
   std::string text = fmt::format("// The bump layers of {0}, written by surfgrad.\n"
                                  "//\n"
                                  "//   {2}Surface s; // what the layers read: fill it in\n"
@@ -298,7 +321,7 @@ std::string inlined_library(const Options& options, std::string_view code) {
 bool is_name(std::string_view text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  return !text.empty() && text != "surfgrad" && text[0] >= 'a' && text[0] <= 'z' &&
+  return !text.empty() && text != "surfgrad" && text != "gl" && text[0] >= 'a' && text[0] <= 'z' &&
          std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
 }
 

@@ -230,7 +230,7 @@ struct ExactMap {
 };
 static_assert(sizeof(ExactMap) == 32);
 
-/// Whether identifiers may begin so (Options::name): not as the library's do.
+/// Whether identifiers may begin so (Options::name): not as the library's do, nor as GLSL's own.
 [[nodiscard]] bool is_name(std::string_view text);
 
 /// The code of the layers of one material.

@@ -27,8 +27,8 @@ constexpr auto types = std::to_array<Spelling>({{"float", "float", "f32"},
                                                 {"mat3", "float3x3", "mat3x3f"},
                                                 {"mat4", "float4x4", "mat4x4f"}});
 
-constexpr auto functions = std::to_array<Spelling>({{"dFdx", "ddx", "dpdx"},
-                                                    {"dFdy", "ddy", "dpdy"},
+constexpr auto functions = std::to_array<Spelling>({{"SURFGRAD_DDX", "ddx_fine", "dpdxFine"},
+                                                    {"SURFGRAD_DDY", "ddy_fine", "dpdyFine"},
                                                     {"mix", "lerp", "mix"},
                                                     {"fract", "frac", "fract"},
                                                     {"inversesqrt", "rsqrt", "inverseSqrt"}});

@@ -216,6 +216,7 @@ TEST(Shader, NoInputIsReplacedAndNoFolder) {
               HasSubstr("rock.json: would replace a file of the scene; give -o another name"));
   EXPECT_THAT(refusal("sub/../rock.json"), HasSubstr("would replace a file of the scene"));
   EXPECT_THAT(refusal("n.png"), HasSubstr("n.png: would replace a file of the scene"));
+  EXPECT_THAT(refusal("a.obj"), HasSubstr("a.obj: would replace a file of the scene"));
   EXPECT_THAT(refusal("sub"), HasSubstr("sub: is a folder"));
   EXPECT_THAT(refusal("b"), HasSubstr("b.json: is a folder"));
   const Outcome dash = run_program({"shader", "rock.json", "--lang", "glsl", "-o", "-"}, folder.path());

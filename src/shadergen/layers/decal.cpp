@@ -256,7 +256,9 @@ void append_instances(const stack::DecalLayer& layer, Generator& g) {
                        .problem = fmt::format("brings the stack to {} decals", shader.decal_count),
                        .remedy = std::move(remedy)});
   };
-  if (shader.decal_count > most) throw fault(fmt::format("a shader in this language takes {}", most));
+  // A device says itself what its buffers hold.
+  if (!g.exact() && shader.decal_count > most)
+    throw fault(fmt::format("a shader in this language takes {}", most));
   if (glsl && shader.beyond_es.empty() && shader.decal_count > most_decals_es)
     shader.beyond_es =
         fault(fmt::format("the code compiles as GLSL 450 alone, as ES takes {}", most_decals_es)).what();

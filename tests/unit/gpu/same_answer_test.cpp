@@ -6,14 +6,15 @@
 #include "golden/golden_scenes.hpp"
 #include "gpu/backend.hpp"
 #include "render/render.hpp"
+#include "scene/demo_maps.hpp"
+#include "stack/uses.hpp"
+#include "stacks.hpp"
 #include "support/angle.hpp"
 #include "support/vulkan.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <set>
 #include <vector>
 
 namespace surfgrad::test {
@@ -92,15 +93,6 @@ class SameAnswer : public VulkanTest {
   inline static std::unique_ptr<gpu::Backend> shared_backend;
 };
 
-/// Figures whose panels differ in what their layers do. Of the others, which vary meshes, transforms and
-/// numbers, one panel stands for all, so that compiling shaders does not take the better part of all tests'
-/// time; SURFGRAD_WHOLE_GALLERY in the environment takes every one.
-bool differs_in_layers(const std::string& figure) {
-  static const std::set<std::string> all{"noise",    "projections",       "decals",     "decal-blends",
-                                         "parallax", "magnified-heights", "back-faces", "influences"};
-  return all.contains(figure) || std::getenv("SURFGRAD_WHOLE_GALLERY") != nullptr;
-}
-
 /// Heights and what rays meet: half of the time.
 bool has_heights(const std::string& figure) {
   return figure.find("heights") != std::string::npos || figure.find("parallax") != std::string::npos;
@@ -146,13 +138,57 @@ void compare_figures(const gpu::Backend& backend, bool with_heights) {
   for (const gallery::Figure& figure : gallery::built_in_figures())
     for (const gallery::Panel& panel : figure.panels) {
       if (has_heights(figure.id) != with_heights) continue;
-      if (&panel != &figure.panels.front() && !differs_in_layers(figure.id)) continue;
       largest.compare(backend, panel.scene(), figure.id + ", " + panel.id);
     }
 }
 
 TEST_F(SameAnswer, RendersTheGallerysHeights) { compare_figures(backend(), true); }
 TEST_F(SameAnswer, RendersTheRestOfTheGallery) { compare_figures(backend(), false); }
+
+/// Plates with stripes as opacity: something to read for every kind of layer.
+image::Image normals_with_opacity(int size) {
+  const image::Image normals = scene::plates_normal_map(size);
+  const image::Image stripes = scene::stripes_mask(size);
+  image::Image all = image::make_image(size, size, 4, image::Depth::unorm16);
+  all.has_alpha = true;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      for (int c = 0; c < 3; ++c) all.at(x, y, c) = normals.at(x, y, c);
+      all.at(x, y, 3) = stripes.at(x, y, 0);
+    }
+  return all;
+}
+
+/// Six faces in a row.
+image::Image six_faces(int size) {
+  const image::Image face = scene::weave_normal_map(size);
+  image::Image cube = image::make_image(6 * size, size, 3, image::Depth::unorm16);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < 6 * size; ++x)
+      for (int c = 0; c < 3; ++c) cube.at(x, y, c) = face.at(x % size, y, c);
+  return cube;
+}
+
+/// The demo's torus under another stack.
+scene::Scene torus_under(const shadergen::test::NamedStack& stack) {
+  scene::Scene scene = scene::demo_scene();
+  const auto map = std::make_shared<const image::Image>(normals_with_opacity(64));
+  const auto cube = std::make_shared<const image::Image>(six_faces(32));
+  scene.materials[0].layers = stack.layers;
+  scene.materials[0].back_faces = stack.back_faces;
+  scene.displace = stack.displace;
+  for (stack::Layer& layer : scene.materials[0].layers)
+    for (const stack::FileName* file : stack::files_of(layer))
+      scene.images[file->path] = file->path.extension() == ".exr" ? cube : map;
+  if (scene.displace && scene.displace->map) scene.images[scene.displace->map->file.path] = map;
+  return scene;
+}
+
+TEST_F(SameAnswer, RendersEveryKindOfLayer) {
+  Largest largest;
+  for (const shadergen::test::NamedStack& stack : shadergen::test::every_kind())
+    largest.compare(backend(), torus_under(stack), stack.name);
+}
 
 TEST_F(SameAnswer, RendersRealModels) {
   if (!std::filesystem::exists(shared_assets())) GTEST_SKIP() << "no real assets at " << shared_assets();

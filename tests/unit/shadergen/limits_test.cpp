@@ -110,9 +110,23 @@ TEST(Limits, WrapsThatGodotLacks) {
   EXPECT_EQ(refusal(stack, Language::glsl), "accepted");
 }
 
+TEST(Limits, NamesOfFilesStayWithinTheirComments) {
+  const NamedStack stack =
+      parsed("odd", R"({ "surfgrad": 1, "layers": [ { "type": "normal_map", "map": "new\nline.png\\" } ] })");
+  const std::string source = generate(stack.layers, options_of(stack, Language::glsl)).source;
+  EXPECT_THAT(source, HasSubstr("new?line.png?\n"));
+}
+
+TEST(Limits, ADeviceTakesMoreDecalsThanALanguage) {
+  const NamedStack stack = with_decals(4097);
+  Options options = options_of(stack, Language::glsl);
+  options.access = TextureAccess::exact;
+  EXPECT_EQ(generate(stack.layers, options).decal_count, 4097);
+}
+
 TEST(Limits, Names) {
   EXPECT_TRUE(is_name("skin2"));
-  for (const char* name : {"", "surfgrad", "Skin", "2skin", "skin_2", "skin.2", "h\xc3\xa4ut"})
+  for (const char* name : {"", "surfgrad", "gl", "Skin", "2skin", "skin_2", "skin.2", "h\xc3\xa4ut"})
     EXPECT_FALSE(is_name(name)) << name;
   EXPECT_THROW(static_cast<void>(generate({}, {.name = "No"})), std::invalid_argument);
 }

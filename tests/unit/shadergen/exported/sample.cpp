@@ -201,6 +201,8 @@ std::vector<double> values_of(const SurfaceMember& member, const Sample& sample,
     return three(f.dn_dy);
   case Role::relative_from_screen:
     return columns_of(p.relative_from_screen.value_or(mat4<double>{}));
+  case Role::roughness:
+    break; // the engine has none, and no comparison with it asks for any
   }
   return {};
 }

@@ -59,11 +59,20 @@ BricksResult bricks_normal(BricksSurface s) {
 }
 
 #ifdef SURFGRAD_FRAGMENT
+#ifndef SURFGRAD_DDX
+#ifdef GL_ES
+#define SURFGRAD_DDX dFdx
+#define SURFGRAD_DDY dFdy
+#else
+#define SURFGRAD_DDX dFdxFine
+#define SURFGRAD_DDY dFdyFine
+#endif
+#endif
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 BricksSurface bricks_with_derivatives(BricksSurface s) {
   BricksSurface t = s;
-  t.dst0_dx = dFdx(s.st0);
-  t.dst0_dy = dFdy(s.st0);
+  t.dst0_dx = SURFGRAD_DDX(s.st0);
+  t.dst0_dy = SURFGRAD_DDY(s.st0);
   return t;
 }
 #endif

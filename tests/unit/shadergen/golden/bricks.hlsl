@@ -54,8 +54,8 @@ BricksResult bricks_normal(BricksSurface s) {
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 BricksSurface bricks_with_derivatives(BricksSurface s) {
   BricksSurface t = s;
-  t.dst0_dx = ddx(s.st0);
-  t.dst0_dy = ddy(s.st0);
+  t.dst0_dx = ddx_fine(s.st0);
+  t.dst0_dy = ddy_fine(s.st0);
   return t;
 }
 #endif

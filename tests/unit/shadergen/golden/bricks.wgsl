@@ -50,7 +50,7 @@ fn bricks_normal(s: BricksSurface) -> BricksResult {
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 fn bricks_with_derivatives(s: BricksSurface) -> BricksSurface {
   var t: BricksSurface = s;
-  t.dst0_dx = dpdx(s.st0);
-  t.dst0_dy = dpdy(s.st0);
+  t.dst0_dx = dpdxFine(s.st0);
+  t.dst0_dy = dpdyFine(s.st0);
   return t;
 }

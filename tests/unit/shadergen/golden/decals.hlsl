@@ -320,10 +320,10 @@ DecalsResult decals_normal(DecalsSurface s) {
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 DecalsSurface decals_with_derivatives(DecalsSurface s) {
   DecalsSurface t = s;
-  t.dp_dx = ddx(s.position);
-  t.dp_dy = ddy(s.position);
-  t.dst0_dx = ddx(s.st0);
-  t.dst0_dy = ddy(s.st0);
+  t.dp_dx = ddx_fine(s.position);
+  t.dp_dy = ddy_fine(s.position);
+  t.dst0_dx = ddx_fine(s.st0);
+  t.dst0_dy = ddy_fine(s.st0);
   return t;
 }
 #endif

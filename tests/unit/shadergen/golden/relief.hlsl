@@ -415,14 +415,14 @@ ReliefVertex relief_displaced(float3 position, float3 normal) {
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 ReliefSurface relief_with_derivatives(ReliefSurface s) {
   ReliefSurface t = s;
-  t.dp_dx = ddx(s.position);
-  t.dp_dy = ddy(s.position);
-  t.dn_dx = ddx(s.normal);
-  t.dn_dy = ddy(s.normal);
-  t.dst0_dx = ddx(s.st0);
-  t.dst0_dy = ddy(s.st0);
-  t.dst1_dx = ddx(s.st1);
-  t.dst1_dy = ddy(s.st1);
+  t.dp_dx = ddx_fine(s.position);
+  t.dp_dy = ddy_fine(s.position);
+  t.dn_dx = ddx_fine(s.normal);
+  t.dn_dy = ddy_fine(s.normal);
+  t.dst0_dx = ddx_fine(s.st0);
+  t.dst0_dy = ddy_fine(s.st0);
+  t.dst1_dx = ddx_fine(s.st1);
+  t.dst1_dy = ddy_fine(s.st1);
   return t;
 }
 #endif

@@ -168,15 +168,24 @@ TorusResult torus_normal(TorusSurface s) {
 }
 
 #ifdef SURFGRAD_FRAGMENT
+#ifndef SURFGRAD_DDX
+#ifdef GL_ES
+#define SURFGRAD_DDX dFdx
+#define SURFGRAD_DDY dFdy
+#else
+#define SURFGRAD_DDX dFdxFine
+#define SURFGRAD_DDY dFdyFine
+#endif
+#endif
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 TorusSurface torus_with_derivatives(TorusSurface s) {
   TorusSurface t = s;
-  t.dp_dx = dFdx(s.position);
-  t.dp_dy = dFdy(s.position);
-  t.dst0_dx = dFdx(s.st0);
-  t.dst0_dy = dFdy(s.st0);
-  t.dst1_dx = dFdx(s.st1);
-  t.dst1_dy = dFdy(s.st1);
+  t.dp_dx = SURFGRAD_DDX(s.position);
+  t.dp_dy = SURFGRAD_DDY(s.position);
+  t.dst0_dx = SURFGRAD_DDX(s.st0);
+  t.dst0_dy = SURFGRAD_DDY(s.st0);
+  t.dst1_dx = SURFGRAD_DDX(s.st1);
+  t.dst1_dy = SURFGRAD_DDY(s.st1);
   return t;
 }
 #endif

@@ -162,11 +162,11 @@ fn torus_normal(s: TorusSurface) -> TorusResult {
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 fn torus_with_derivatives(s: TorusSurface) -> TorusSurface {
   var t: TorusSurface = s;
-  t.dp_dx = dpdx(s.position);
-  t.dp_dy = dpdy(s.position);
-  t.dst0_dx = dpdx(s.st0);
-  t.dst0_dy = dpdy(s.st0);
-  t.dst1_dx = dpdx(s.st1);
-  t.dst1_dy = dpdy(s.st1);
+  t.dp_dx = dpdxFine(s.position);
+  t.dp_dy = dpdyFine(s.position);
+  t.dst0_dx = dpdxFine(s.st0);
+  t.dst0_dy = dpdyFine(s.st0);
+  t.dst1_dx = dpdxFine(s.st1);
+  t.dst1_dy = dpdyFine(s.st1);
   return t;
 }

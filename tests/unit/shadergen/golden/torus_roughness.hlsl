@@ -217,12 +217,12 @@ TorusResult torus_normal(TorusSurface s) {
 // A fragment's surface, its derivatives filled in. Call it in uniform control flow.
 TorusSurface torus_with_derivatives(TorusSurface s) {
   TorusSurface t = s;
-  t.dp_dx = ddx(s.position);
-  t.dp_dy = ddy(s.position);
-  t.dst0_dx = ddx(s.st0);
-  t.dst0_dy = ddy(s.st0);
-  t.dst1_dx = ddx(s.st1);
-  t.dst1_dy = ddy(s.st1);
+  t.dp_dx = ddx_fine(s.position);
+  t.dp_dy = ddy_fine(s.position);
+  t.dst0_dx = ddx_fine(s.st0);
+  t.dst0_dy = ddy_fine(s.st0);
+  t.dst1_dx = ddx_fine(s.st1);
+  t.dst1_dy = ddy_fine(s.st1);
   return t;
 }
 #endif
