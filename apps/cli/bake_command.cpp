@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <charconv>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,7 +21,8 @@ namespace {
 
 struct BakeCommand {
   CommonOptions common;
-  bake::Options job{.padding = 16}; // mip levels down to a sixteenth stay within the island
+  bake::Options job{};
+  std::string padding = "16"; // mip levels down to a sixteenth stay within the island
   std::optional<double> range;
   std::optional<stack::NeutralCode> neutral;
   std::optional<bool> dither;
@@ -52,6 +54,18 @@ void warn_about(const bake::Counts& baked, const bake::Options& job, Console& co
                     baked.beyond_range, baked.covered, job.range, 1.0001 * baked.steepest));
 }
 
+constexpr int most_padding = 256; // a window of that many rows is kept
+
+void set_padding(const std::string& text, bake::Options& job) {
+  job.fill = text == "fill";
+  if (job.fill) return;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), job.padding);
+  if (error != std::errc() || end != text.data() + text.size() || job.padding < 0 ||
+      job.padding > most_padding)
+    throw CLI::ValidationError(
+        "--padding", fmt::format("\"{}\" is not a whole number from 0 to {}, or fill", text, most_padding));
+}
+
 /// What the options say together. Throws CLI::ValidationError for those that contradict each other.
 bake::Options job_of(const BakeCommand& command, image::Depth depth) {
   bake::Options job = command.job;
@@ -59,6 +73,7 @@ bake::Options job_of(const BakeCommand& command, image::Depth depth) {
   job.width = size.width;
   job.height = size.height;
   job.depth = depth;
+  set_padding(command.padding, job);
   if (job.encoding != bake::Encoding::rgb && job.space != bake::Space::tangent)
     throw CLI::ValidationError("--encoding", "two channels hold normals of --space tangent alone");
   const bool derivative = job.encoding == bake::Encoding::derivative;
@@ -85,12 +100,14 @@ nlohmann::json summary_of(const bake::Counts& baked, const bake::Options& job) {
                          {"padded_texels", baked.padded},
                          {"triangles_outside", baked.outside}};
   if (job.samples == 1) {
-    summary.update({{"overlapping_texels", baked.overlapping},
+    summary.update({{"touched_texels", baked.touched},
+                    {"overlapping_texels", baked.overlapping},
                     {"singular_texels", baked.singular},
                     {"clamped_texels", baked.clamped},
                     {"degenerate_texels", baked.degenerate}});
   } else {
     summary.update({{"covered_samples", baked.samples},
+                    {"touched_samples", baked.touched},
                     {"overlapping_samples", baked.overlapping},
                     {"singular_samples", baked.singular},
                     {"clamped_samples", baked.clamped},
@@ -104,18 +121,31 @@ nlohmann::json summary_of(const bake::Counts& baked, const bake::Options& job) {
 }
 
 /// Rows of pictures are counted from the top.
-int row_from_top(const bake::Verification& result, const bake::Options& job) {
-  return job.height - 1 - result.y;
+int row_from_top(const bake::Deviation& deviation, int height) { return height - 1 - deviation.y; }
+
+nlohmann::json summary_of(const bake::Deviation& deviation, const char* pixels, int height) {
+  return {{pixels, deviation.compared},     {"left_out", deviation.left_out},
+          {"mean_deg", deviation.mean_deg}, {"high_deg", deviation.high_deg},
+          {"most_deg", deviation.most_deg}, {"most_at", {deviation.x, row_from_top(deviation, height)}}};
 }
 
-void say_verified(const bake::Verification& result, const bake::Options& job, Console& console) {
-  console.say(
-      fmt::format("decoded, {} texels are off by {:.4f} degrees in the mean, {:.4f} at 99.9 %, {:.4f} at "
-                  "most (column {}, row {} from the top)",
-                  result.compared, result.mean_deg, result.high_deg, result.most_deg, result.x,
-                  row_from_top(result, job)));
-  if (result.left_out > 0)
-    console.say(fmt::format("{} texels that no tangent-space map can hold are left out", result.left_out));
+std::string words_of(const bake::Deviation& deviation, int height) {
+  return fmt::format("{:.4f} degrees in the mean, {:.4f} at 99.9 %, {:.4f} at most (column {}, row {} from "
+                     "the top)",
+                     deviation.mean_deg, deviation.high_deg, deviation.most_deg, deviation.x,
+                     row_from_top(deviation, height));
+}
+
+void say_verified(const bake::Verification& verified, const bake::Options& job, Console& console) {
+  const bake::Deviation& texels = verified.texels;
+  console.say(fmt::format("decoded, {} texels are off by {}", texels.compared, words_of(texels, job.height)));
+  if (texels.left_out > 0)
+    console.say(fmt::format("{} texels that no tangent-space map can hold are left out", texels.left_out));
+  const bake::Deviation& screen = verified.on_screen;
+  console.say(fmt::format("filtered, {} pixels of a picture of {}x{} are off by {}", screen.compared,
+                          bake::screen_side, bake::screen_side, words_of(screen, bake::screen_side)));
+  if (screen.left_out > 0)
+    console.say(fmt::format("{} pixels that show nothing of the map are left out", screen.left_out));
 }
 
 void run(BakeCommand& command) {
@@ -123,7 +153,7 @@ void run(BakeCommand& command) {
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
   bake::Options job = job_of(command, depth);
   check_output(output, depth);
-  if (command.verify) check_memory({job.width, job.height}); // it is read back whole
+  if (command.verify || job.fill) check_memory({job.width, job.height}); // they hold the map
   Console console("baking", command.common.quiet);
   const ChosenDevice device(command.common.device);
   job.backend = device.backend();
@@ -148,10 +178,9 @@ void run(BakeCommand& command) {
                       {"maps_sampled_by_hardware", filtered.sampled},
                       {"filter_bound_deg", filtered.bound_deg}});
       if (verified)
-        summary["verified"] = {
-            {"texels", verified->compared},   {"left_out", verified->left_out},
-            {"mean_deg", verified->mean_deg}, {"high_deg", verified->high_deg},
-            {"most_deg", verified->most_deg}, {"most_at", {verified->x, row_from_top(*verified, job)}}};
+        summary.update(
+            {{"verified", summary_of(verified->texels, "texels", job.height)},
+             {"verified_on_screen", summary_of(verified->on_screen, "pixels", bake::screen_side)}});
       console.say_json(summary);
       return;
     }
@@ -228,15 +257,15 @@ void add_bake_command(CLI::App& program) {
           "one of them is")
       ->capture_default_str()
       ->check(CLI::Range(1, 16));
-  verb.add_option("--padding", command->job.padding,
+  verb.add_option("--padding", command->padding,
                   "texels around the islands that repeat their border, so that filters and mip levels\n"
-                  "do not show what lies between; 0 for none")
+                  "do not show what lies between; 0 for none, fill for all (the map is held in memory)")
       ->capture_default_str()
-      ->check(CLI::Range(0, 256)) // a window of that many rows is kept
-      ->type_name("N");
+      ->type_name("N|fill");
   verb.add_flag(
       "--verify", command->verify,
-      "decode the written map as an engine does and print how far its normals are from the stack's");
+      "decode the written map as an engine does and print how far its normals are from the stack's:\n"
+      "at the baked points, and filtered in a picture from the scene's camera");
   verb.callback([command] { run(*command); });
 }
 

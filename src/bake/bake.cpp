@@ -2,6 +2,7 @@
 
 #include "bake/dither.hpp"
 #include "bake/encode.hpp"
+#include "bake/fill.hpp"
 #include "bake/format.hpp"
 #include "bake/padding.hpp"
 #include "bake/sample_means.hpp"
@@ -15,6 +16,9 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <optional>
 #include <variant>
 
@@ -31,6 +35,41 @@ std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std
         return st.x < 0 || st.x > 1 || st.y < 0 || st.y > 1;
       });
   return count;
+}
+
+/// A map covers the unit square: says where the texture coordinates are instead if none of a triangle is in
+/// it.
+void require_something_inside(const std::vector<raster::Surface>& surfaces, std::size_t slot, int uv_set,
+                              const std::filesystem::path& source) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  vec2<double> low{infinity, infinity};
+  vec2<double> high{-infinity, -infinity};
+  for (const raster::Surface& surface : surfaces)
+    for (const auto& triangle : surface.mesh->triangles) {
+      vec2<double> from{infinity, infinity};
+      vec2<double> to{-infinity, -infinity};
+      for (const std::uint32_t vertex : triangle) {
+        const vec2<double> st = surface.slots[slot].st[vertex];
+        from = {std::min(from.x, st.x), std::min(from.y, st.y)};
+        to = {std::max(to.x, st.x), std::max(to.y, st.y)};
+      }
+      if (from.x < 1 && to.x > 0 && from.y < 1 && to.y > 0) return;
+      low = {std::min(low.x, from.x), std::min(low.y, from.y)};
+      high = {std::max(high.x, to.x), std::max(high.y, to.y)};
+    }
+  const vec2<double> square{std::floor(low.x), std::floor(low.y)};
+  const bool in_one = high.x <= square.x + 1 && high.y <= square.y + 1;
+  throw InputError(
+      {.file = source,
+       .problem =
+           in_one ? fmt::format("UV set {} lies in the unit square from ({}, {}) to ({}, {}), counted "
+                                "upwards from the lower left, and a map covers that from (0, 0) to (1, 1)",
+                                uv_set, square.x, square.y, square.x + 1, square.y + 1)
+                  : fmt::format("UV set {} lies between ({:.4g}, {:.4g}) and ({:.4g}, {:.4g}), and no "
+                                "triangle reaches into the unit square that a map covers",
+                                uv_set, low.x, low.y, high.x, high.y),
+       .remedy = in_one ? fmt::format("move its coordinates by ({}, {})", 0 - square.x, 0 - square.y)
+                        : "lay it out within the unit square"});
 }
 
 /// Bakes rows of tiles.
@@ -60,6 +99,7 @@ class Bands {
     for (const Own& own : own_) {
       sum.covered += own.counts.covered;
       sum.samples += own.counts.samples;
+      sum.touched += own.counts.touched;
       sum.overlapping += own.counts.overlapping;
       sum.singular += own.counts.singular;
       sum.clamped += own.counts.clamped;
@@ -118,7 +158,7 @@ class Bands {
     if (composed.count < tile.width * tile.height)
       for (const std::size_t texel : own.texel_of) {
         std::copy(flat_.begin(), flat_.end(), first + texel);
-        if (options_.padding > 0) first[texel] = uncovered;
+        if (options_.padding > 0 || options_.fill) first[texel] = uncovered;
       }
     const auto normal = [&](int i) {
       return vec3<float>{work.normal.x[i], work.normal.y[i], work.normal.z[i]};
@@ -141,6 +181,7 @@ class Bands {
       return static_cast<std::int64_t>(sum);
     };
     counts.samples += composed.count;
+    counts.touched += composed.touched;
     counts.overlapping += composed.overlapping;
     counts.singular += set(work.singular);
     counts.clamped += set(work.clamped);
@@ -180,6 +221,8 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
   const scene::Scene& scene = displaced ? displaced->scene : asked;
   const stage::Stage stage(scene, {}, {{options.uv_set, options.space == Space::tangent}}, report,
                            options.backend);
+  const std::size_t slot = stage.slot_of(options.uv_set);
+  require_something_inside(stage.surfaces(), slot, options.uv_set, scene.source);
   Bands bands(stage, scene, options, format);
   // From the maker over the padding and the dither to the taker.
   stage::BandSink sink = take;
@@ -188,8 +231,12 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
     dither.emplace(options.height, format.flat(), sink);
     sink = [&](const image::Image& band) { dither->add(band); };
   }
+  std::optional<Fill> fill;
   std::optional<Padding> padding;
-  if (options.padding > 0) {
+  if (options.fill) {
+    fill.emplace(options.width, options.height, format.flat(), sink);
+    sink = [&](const image::Image& band) { fill->add(band); };
+  } else if (options.padding > 0) {
     padding.emplace(options.width, options.height, options.padding, format.flat(), sink);
     sink = [&](const image::Image& band) { padding->add(band); };
   }
@@ -197,13 +244,14 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
       bands.count(), report,
       [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); }, sink);
   Counts counts = bands.counts();
+  if (fill) counts.padded = fill->filled();
   if (padding) counts.padded = padding->padded();
-  counts.outside = triangles_outside(stage.surfaces(), stage.slot_of(options.uv_set));
+  counts.outside = triangles_outside(stage.surfaces(), slot);
   if (counts.covered == 0)
     throw InputError(
         {.file = scene.source,
-         .problem = fmt::format("no triangle covers a texel of the unit square of UV set {}", options.uv_set),
-         .remedy = "check the mesh's texture coordinates, or bake at a larger size"});
+         .problem = fmt::format("no triangle has an area in the unit square of UV set {}", options.uv_set),
+         .remedy = "unwrap the mesh"});
   return counts;
 }
 

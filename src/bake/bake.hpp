@@ -36,6 +36,7 @@ struct Options {
   int samples = 1;
   /// Texels that no surface covers take the value of the nearest covered one within so many texels; 0: none.
   int padding = 0;
+  bool fill = false; ///< all of them do instead, by pull and push: bake::Fill
   stack::Green green = stack::Green::up;
   Encoding encoding = Encoding::rgb;
   /// Encoding derivative: slope of the largest code, and the code that means flat; see the layer.
@@ -55,13 +56,14 @@ struct Counts {
   std::int64_t padded = 0;      ///< texels that no surface covers, with the value of one that it does
   std::int64_t outside = 0;     ///< triangles that reach beyond [0, 1]^2: what lies there is not in the map
   std::int64_t samples = 0;     ///< that a surface covers; as many as texels where there is one a texel
+  std::int64_t touched = 0;     ///< whose centre none covers: the nearest point of one that reaches into them
   std::int64_t overlapping = 0; ///< that more than one triangle covers; the lowest index wins
   /// Whose vertex frame (or, in object space, transform) cannot be inverted: (0, 0, 1), left out of means.
   std::int64_t singular = 0;
   std::int64_t clamped = 0;    ///< whose normal lies below the tangent plane: steepest slope
   std::int64_t degenerate = 0; ///< without a normal, or where a layer found no frame: it is flat
-  std::int64_t beyond_range =
-      0;               ///< texels whose slope is beyond the encoding's range: it keeps its direction
+  /// Texels whose slope is beyond the encoding's range: it keeps its direction.
+  std::int64_t beyond_range = 0;
   double steepest = 0; ///< encoding derivative: the largest slope along an axis
 };
 
@@ -70,9 +72,9 @@ struct Baked : Counts {
   image::Image map; ///< flat where no surface lies, unless padded
 };
 
-/// Bakes a scene's stack into one normal map over a UV set, at texel centres; of a scene with a
-/// displacement it is a map for the displaced mesh. Back faces do not occur: the surface is seen from its
-/// front.
+/// Bakes a scene's stack into one normal map over a UV set, at texel centres, and where none is covered at
+/// the nearest point that lies in the texel; of a scene with a displacement it is a map for the displaced
+/// mesh. Back faces do not occur: the surface is seen from its front.
 ///
 /// Throws InputError when a mesh lacks the UV set, nothing lies in [0, 1]^2 or a layer depends on the viewer.
 /// Same bytes for any number of threads.

@@ -1,7 +1,9 @@
 #include "bake/verify.hpp"
 
+#include "bake/angles.hpp"
 #include "bake/format.hpp"
 #include "bake/tangent_space.hpp"
+#include "bake/verify_on_screen.hpp"
 #include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
 #include "stage/stage.hpp"
@@ -11,80 +13,12 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 namespace surfgrad::bake {
 namespace {
-
-/// Angles, in whole numbers: their sum and their distribution do not depend on the order.
-class Angles {
- public:
-  void add(double degrees, std::int64_t texel) {
-    ++count_;
-    sum_ += std::llround(degrees * unit);
-    ++bins_[bin_of(degrees)];
-    if (degrees > most_ || (degrees == most_ && texel < where_)) {
-      most_ = degrees;
-      where_ = texel;
-    }
-  }
-  void add(const Angles& other) {
-    count_ += other.count_;
-    sum_ += other.sum_;
-    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
-    if (other.most_ > most_ || (other.most_ == most_ && other.where_ < where_)) {
-      most_ = other.most_;
-      where_ = other.where_;
-    }
-  }
-  [[nodiscard]] std::int64_t count() const { return count_; }
-  [[nodiscard]] double mean() const {
-    return count_ == 0 ? 0 : static_cast<double>(sum_) / unit / static_cast<double>(count_);
-  }
-  [[nodiscard]] double most() const { return std::max(most_, 0.0); }
-  [[nodiscard]] std::int64_t where() const { return most_ < 0 ? 0 : where_; }
-  /// The least angle, rounded up, that no more than this share of all exceeds.
-  [[nodiscard]] double exceeded_by(double share) const {
-    std::int64_t above = count_;
-    std::size_t i = 0;
-    for (; i + 1 < bins_.size(); ++i) {
-      above -= bins_[i];
-      if (static_cast<double>(above) <= share * static_cast<double>(count_)) break;
-    }
-    return std::min(most(), double{std::bit_cast<float>(static_cast<std::uint32_t>(i + 1) << bin_shift)});
-  }
-
- private:
-  static constexpr double unit = 1 << 24; // a part of 2^-24 degrees; the sum of 2^28 texels fits
-  // Positive floats sort as their bits do: sign, exponent and eight bits of the fraction.
-  static constexpr int bin_shift = 15;
-  static std::size_t bin_of(double degrees) {
-    return std::bit_cast<std::uint32_t>(static_cast<float>(degrees)) >> bin_shift;
-  }
-
-  std::int64_t count_ = 0;
-  std::int64_t sum_ = 0;
-  std::vector<std::int64_t> bins_ = std::vector<std::int64_t>(std::size_t{1} << (31 - bin_shift));
-  double most_ = -1;
-  std::int64_t where_ = 0;
-};
-
-struct Own {
-  Angles angles{};
-  std::int64_t left_out = 0;
-};
 
 template <class T>
 vec3<T> at(const vec3<float*>& array, int i) {
   return {static_cast<T>(array.x[i]), static_cast<T>(array.y[i]), static_cast<T>(array.z[i])};
-}
-
-double angle_deg(vec3<double> a, vec3<double> b) {
-  return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
 }
 
 /// Compares tiles.
@@ -96,7 +30,7 @@ class Comparison {
   }
 
   void compare(const stage::ComposedTile& composed) {
-    Own& own = own_.local();
+    Angles& own = own_.local();
     const engine::TileWork::Results& r = composed.results;
     for (const stage::ComposedTile::Run& run : composed.runs) {
       const mat3<double> linear = raster::linear_part(scene_.objects[run.surface].world_from_object);
@@ -107,31 +41,22 @@ class Comparison {
           const auto held = in_vertex_frame(at<float>(r.mesh_normal, i), at<float>(r.tangent, i), r.sign[i],
                                             at<float>(r.normal, i));
           if (held.singular || held.clamped) {
-            ++own.left_out;
+            own.leave_out();
             continue;
           }
         }
         const int x = composed.tile.x + composed.pixel[i] % composed.tile.width;
         const int y = composed.tile.y + composed.pixel[i] / composed.tile.width;
         const vec3<double> m = format_.decode(map_.texels.data() + map_.index(x, y), integers_, most_code_);
-        own.angles.add(angle_deg(in_world(r, i, linear, m), normal), std::int64_t{y} * map_.width + x);
+        own.add(angle_deg(in_world(r, i, linear, m), normal), std::int64_t{y} * map_.width + x);
       }
     }
   }
 
-  [[nodiscard]] Verification result() const {
-    Own sum;
-    for (const Own& own : own_) {
-      sum.angles.add(own.angles);
-      sum.left_out += own.left_out;
-    }
-    return {sum.angles.count(),
-            sum.left_out,
-            sum.angles.mean(),
-            sum.angles.exceeded_by(1e-3),
-            sum.angles.most(),
-            static_cast<int>(sum.angles.where() % map_.width),
-            static_cast<int>(sum.angles.where() / map_.width)};
+  [[nodiscard]] Deviation result() const {
+    Angles sum;
+    for (const Angles& own : own_) sum.add(own);
+    return sum.summary(map_.width);
   }
 
  private:
@@ -157,17 +82,13 @@ class Comparison {
   const image::Image& map_;
   bool integers_;
   double most_code_;
-  tbb::enumerable_thread_specific<Own> own_{};
+  tbb::enumerable_thread_specific<Angles> own_{};
 };
 
-} // namespace
-
-Verification verify(const scene::Scene& asked, const Options& options, const image::Image& map,
-                    const Report& report) {
-  const Report silent{report.progress, {}}; // the bake has given all warnings
-  const auto displaced = displace::displaced(asked, silent.at_the_start());
-  const scene::Scene& scene = displaced ? displaced->scene : asked;
-  const stage::Stage stage(scene, {}, {{options.uv_set, options.space == Space::tangent}}, silent,
+/// At the texel centres, by the nearest texel.
+Deviation compare_texels(const scene::Scene& scene, const Options& options, const image::Image& map,
+                         const Report& report) {
+  const stage::Stage stage(scene, {}, {{options.uv_set, options.space == Space::tangent}}, report,
                            options.backend);
   const std::size_t slot = stage.slot_of(options.uv_set);
   const raster::Projection projection = raster::Projection::texture(slot, map.width, map.height);
@@ -181,6 +102,25 @@ Verification verify(const scene::Scene& asked, const Options& options, const ima
     if (report.progress && !report.progress(static_cast<double>(row + 1) / rows)) throw Cancelled();
   }
   return comparison.result();
+}
+
+} // namespace
+
+Verification verify(const scene::Scene& asked, const Options& options, const image::Image& map,
+                    const Report& report) {
+  const auto displaced = displace::displaced(asked, Report{report.progress, {}}.at_the_start());
+  const scene::Scene& scene = displaced ? displaced->scene : asked;
+  // The bake has given all warnings. The two parts take about as long.
+  const auto part = [&](double first) {
+    Report part_report;
+    if (report.progress)
+      part_report.progress = [&report, first](double done) { return report.progress(first + 0.5 * done); };
+    return part_report;
+  };
+  Verification result;
+  result.texels = compare_texels(scene, options, map, part(0));
+  result.on_screen = compare_on_screen(scene, options, map, part(0.5));
+  return result;
 }
 
 } // namespace surfgrad::bake

@@ -4,18 +4,31 @@
 
 namespace surfgrad::bake {
 
-/// How far the normals that a map decodes to are from those composed.
-struct Verification {
+/// How far the normals that a map decodes to are from those composed, over the pixels of a picture.
+struct Deviation {
   std::int64_t compared = 0;
-  std::int64_t left_out = 0; ///< no map in tangent space can hold them: Counts::singular, Counts::clamped
+  std::int64_t left_out = 0;
   double mean_deg = 0;
-  double high_deg = 0; ///< of a thousand texels one is farther off, to 1/256 of it
+  double high_deg = 0; ///< of a thousand pixels one is farther off, to 1/256 of it
   double most_deg = 0;
-  int x = 0, y = 0; ///< the texel farthest off, from the lower left
+  int x = 0, y = 0; ///< the pixel farthest off, from the lower left
 };
 
-/// Decodes a map as an engine does, normalize(x T + y B + z N) of the nearest texel and the interpolated
-/// vertex frame as it is, at the centres of its covered texels, and compares with the stack composed there.
+struct Verification {
+  /// At the texels of the map, the nearest one fetched: what its encoding has lost. Those that no map in
+  /// tangent space can hold are left out: Counts::singular, Counts::clamped.
+  Deviation texels{};
+  /// At the pixels of a picture, the map filtered: what filtering it instead of the stack's own maps changes.
+  /// Pixels of what lies beyond the map are left out.
+  Deviation on_screen{};
+};
+
+/// Sides of that picture.
+inline constexpr int screen_side = 1024;
+
+/// Decodes a map as an engine does, normalize(x T + y B + z N) of the interpolated vertex frame as it is, and
+/// compares with the stack: at the points that were baked, and as the scene's camera sees it, with trilinear
+/// filtering of the texels as they are encoded.
 ///
 /// options  those it was baked with; the size is the map's
 /// map      as read from its file: its depth says what its values are

@@ -177,7 +177,7 @@ TEST(Verify, FindsWhatFilesRoundAway) {
     options.width = side;
     options.height = side;
     const Baked baked = bake(scene, options);
-    const Verification got = verify(scene, options, filed(baked.map, options.depth));
+    const Deviation got = verify(scene, options, filed(baked.map, options.depth)).texels;
     std::printf("  mean %.5f, 99.9 %% %.5f, most %.5f degrees\n", got.mean_deg, got.high_deg, got.most_deg);
     EXPECT_EQ(got.compared, side * side);
     EXPECT_EQ(got.left_out, 0);
@@ -203,7 +203,7 @@ TEST(Verify, TellsTheWorstTexelAndHowManyAreFarOff) {
     texel[1] = static_cast<float>(0.5 * turned.y + 0.5);
     texel[2] = static_cast<float>(0.5 * turned.z + 0.5);
   }
-  const Verification got = verify(scene, options, baked.map);
+  const Deviation got = verify(scene, options, baked.map).texels;
   EXPECT_NEAR(got.most_deg, 90, 1e-3);
   EXPECT_EQ(got.x, 90);
   EXPECT_EQ(got.y, 70);
@@ -216,7 +216,7 @@ TEST(Verify, LeavesOutWhatNoMapCanHold) {
   scene::Scene scene = bumped();
   for (vec3<float>& n : scene.meshes[0].normals) n = {0, 0, 0};
   const Options options{.width = side, .height = side};
-  const Verification got = verify(scene, options, bake(scene, options).map);
+  const Deviation got = verify(scene, options, bake(scene, options).map).texels;
   EXPECT_EQ(got.compared, 0);
   EXPECT_EQ(got.left_out, side * side);
   EXPECT_EQ(got.mean_deg, 0);
