@@ -60,6 +60,9 @@ TEST(Bake, PadsBySixteenTexelsUnlessToldOtherwise) {
   const image::Image map = io::read_image(folder.path() / "a.png");
   for (int c = 0; c < 3; ++c) EXPECT_EQ(map.at(17, 3, c), map.at(15, 3, c));
   EXPECT_EQ(map.at(18, 3, 2), 1.0f);
+  EXPECT_EQ(bake(folder, {"-o", "a.png", "--padding", "fill"})["padded_texels"], 32 * 32 - 16 * 16);
+  const image::Image full = io::read_image(folder.path() / "a.png");
+  EXPECT_NE(full.at(31, 31, 0), bare.at(31, 31, 0));
 }
 
 TEST(Bake, DithersEightBitsUnlessToldOtherwise) {
@@ -108,7 +111,10 @@ TEST(Bake, EveryEncodingReadsBackThroughItsLayer) {
 TEST(Bake, VerifyPrintsHowFarTheDecodedNormalsAreOff) {
   const Folder folder;
   write_quad(folder, normal_map);
-  const auto fine = bake(folder, {"-o", "a.png", "--verify"})["verified"];
+  const auto summary = bake(folder, {"-o", "a.png", "--verify"});
+  EXPECT_GT(summary["verified_on_screen"]["pixels"], 100000);
+  EXPECT_GT(summary["verified_on_screen"]["mean_deg"], summary["verified"]["mean_deg"]);
+  const auto fine = summary["verified"];
   EXPECT_EQ(fine["texels"], 16 * 16);
   EXPECT_LT(fine["mean_deg"], 0.01);
   EXPECT_LT(fine["most_deg"], 0.1);
@@ -118,6 +124,7 @@ TEST(Bake, VerifyPrintsHowFarTheDecodedNormalsAreOff) {
   const Outcome words =
       run_program({"bake", "s.json", "-o", "a.png", "--size", "32", "--verify"}, folder.path());
   EXPECT_THAT(words.out, HasSubstr("decoded, 256 texels are off by 0.00"));
+  EXPECT_THAT(words.out, HasSubstr("pixels of a picture of 1024x1024 are off by "));
   // In tenths of a degree: a range too small for the slopes flattens them, and both numbers say so.
   const Outcome flat =
       run_program({"bake", "s.json", "-o", "a.png", "--encoding", "derivative", "--range", "0.3", "--verify"},
@@ -133,6 +140,18 @@ TEST(Bake, SamplesAreCountedAsSuch) {
   EXPECT_EQ(summary["covered_texels"], 16 * 16);
   EXPECT_EQ(summary["covered_samples"], 9 * 16 * 16);
   EXPECT_FALSE(summary.contains("singular_texels"));
+}
+
+TEST(Bake, NamesTheUnitSquareThatAMeshIsLaidOutInInstead) {
+  const Folder folder;
+  write_quad(folder, normal_map);
+  folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                        "vt 1 0\nvt 1.5 0\nvt 1.5 0.5\nvt 1 0.5\nf 1/1 2/2 3/3 4/4\n");
+  const Outcome run = run_program({"bake", "s.json", "-o", "a.png"}, folder.path());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.error, HasSubstr("UV set 0 lies in the unit square from (1, 0) to (2, 1)"));
+  EXPECT_THAT(run.error, HasSubstr("move its coordinates by (-1, 0)"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.png"));
 }
 
 TEST(Bake, RefusesAUvSetThatTheMeshLacksAndParallax) {
@@ -153,6 +172,8 @@ TEST(Bake, OptionsThatContradictEachOtherAreUsageErrors) {
   for (const std::vector<std::string>& options :
        std::vector<std::vector<std::string>>{{"--padding", "-1"},
                                              {"--padding", "257"},
+                                             {"--padding", "4.5"},
+                                             {"--padding", "full"},
                                              {"--samples", "0"},
                                              {"--samples", "17"},
                                              {"--uv", "8"},

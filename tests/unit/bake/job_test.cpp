@@ -89,6 +89,29 @@ TEST(BakeJob, RefusesAMeshWithoutTextureCoordinatesOrWithNoneInTheUnitSquare) {
   }
 }
 
+TEST(BakeJob, TellsWhereAMeshIsLaidOutThatTheMapDoesNotReach) {
+  scene::Scene scene = two_layers();
+  const auto problem_of = [&](vec2<float> move, float scale) -> std::string {
+    scene::Scene moved = scene;
+    for (vec2<float>& st : moved.meshes[0].uv_sets[0]) st = scale * st + move;
+    try {
+      (void)bake(moved, {16, 16, Space::tangent});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(problem_of({0, 0}, 1), "");
+  const std::string other = problem_of({1, -2}, 1);
+  EXPECT_NE(other.find("UV set 0 lies in the unit square from (1, -2) to (2, -1)"), std::string::npos)
+      << other;
+  EXPECT_NE(other.find("move its coordinates by (-1, 2)"), std::string::npos) << other;
+  const std::string many = problem_of({3.5f, 0}, 2);
+  EXPECT_NE(many.find("UV set 0 lies between (3.5, 0) and (5.5, 2)"), std::string::npos) << many;
+  const std::string point = problem_of({0.5f, 0.5f}, 0);
+  EXPECT_NE(point.find("no triangle has an area in the unit square of UV set 0"), std::string::npos) << point;
+}
+
 TEST(BakeJob, LaysTheMapOutInTheUvSetAskedFor) {
   scene::Scene scene = two_layers();
   auto& sets = scene.meshes[0].uv_sets;

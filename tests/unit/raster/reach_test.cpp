@@ -76,7 +76,7 @@ TEST(Reach, GivesPixelsWithoutACentreTheNearestTriangleThatReachesIntoThem) {
   int empty = 0;
   double farthest = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const mesh::TriangleMesh mesh = slivers(random, 25);
+    const mesh::TriangleMesh mesh = slivers(random, 100);
     const std::vector<Surface> surfaces{
         place_mesh(mesh, test::affine(test::scaling({1, 1, 1})), {0, 0, 0}, {{0, false}})};
     const Projection projection = Projection::texture(0, width, height);
