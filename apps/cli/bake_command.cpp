@@ -2,6 +2,7 @@
 #include "bake/verify.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "gltf_output.hpp"
 #include "io/extension.hpp"
 #include "io/image_file.hpp"
 #include "options.hpp"
@@ -27,6 +28,7 @@ struct BakeCommand {
   std::optional<stack::NeutralCode> neutral;
   std::optional<bool> dither;
   bool verify = false;
+  GltfOutput gltf;
 };
 
 void warn_about(const bake::Counts& baked, const bake::Options& job, Console& console) {
@@ -153,17 +155,20 @@ void run(BakeCommand& command) {
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
   bake::Options job = job_of(command, depth);
   check_output(output, depth);
+  command.gltf.check(job, output);
   if (command.verify || job.fill) check_memory({job.width, job.height}); // they hold the map
   Console console("baking", command.common.quiet);
   const ChosenDevice device(command.common.device);
   job.backend = device.backend();
   on_threads(command.common.threads, [&] {
     const scene::Scene scene = open_scene(command.common, console.report());
+    command.gltf.check(scene);
     const int channels = job.encoding == bake::Encoding::rgb || job.full_blue ? 3 : 2;
     OutputFile file(output, {job.width, job.height, channels}, depth, command.common.compression);
     const bake::Counts baked = bake::bake_bands(
         scene, job, [&](const image::Image& band) { file.write(band); }, console.report());
     file.commit();
+    command.gltf.write(scene, job, baked, output, command.common.quiet);
     std::optional<bake::Verification> verified;
     if (command.verify) {
       Console verifying("verifying", command.common.quiet);
@@ -181,12 +186,14 @@ void run(BakeCommand& command) {
         summary.update(
             {{"verified", summary_of(verified->texels, "texels", job.height)},
              {"verified_on_screen", summary_of(verified->on_screen, "pixels", bake::screen_side)}});
+      if (command.gltf.is_wanted()) summary["gltf"] = command.gltf.file().string();
       console.say_json(summary);
       return;
     }
     warn_about(baked, job, console);
     console.say(fmt::format("wrote {} ({}x{}, {} texels covered)", output.string(), job.width, job.height,
                             baked.covered));
+    if (command.gltf.is_wanted()) console.say(fmt::format("wrote {}", command.gltf.file().string()));
     if (verified) say_verified(*verified, job, console);
     say_filtered(filtered, console);
   });
@@ -238,6 +245,7 @@ void add_bake_command(CLI::App& program) {
               "  surfgrad bake -o demo_normal.png                     the built-in demo\n"
               "  surfgrad bake pirate.json -o pirate_n.png --size 2048\n"
               "  surfgrad bake pirate.json -o pirate_n.png --depth 8 --green down --verify\n"
+              "  surfgrad bake pirate.json -o pirate_n.png --gltf pirate.glb\n"
               "  surfgrad bake pirate.json -o pirate_o.exr --space object");
   add_common_options(verb, command->common, "16");
   verb.add_option("--uv", command->job.uv_set, "UV set that the map is laid out in")
@@ -266,6 +274,7 @@ void add_bake_command(CLI::App& program) {
       "--verify", command->verify,
       "decode the written map as an engine does and print how far its normals are from the stack's:\n"
       "at the baked points, and filtered in a picture from the scene's camera");
+  command->gltf.add_option(verb);
   verb.callback([command] { run(*command); });
 }
 

@@ -141,6 +141,20 @@ void check_output(const std::filesystem::path& output, image::Depth depth) {
   io::check_image_output(output, depth);
 }
 
+void check_is_no_input(const scene::Scene& scene, const std::filesystem::path& output,
+                       const std::string& option) {
+  const auto check = [&](const std::filesystem::path& input) {
+    std::error_code ignored; // what does not exist yet, or is built in, is no other file
+    if (std::filesystem::equivalent(input, output, ignored))
+      throw InputError({.file = output,
+                        .problem = "would replace a file of the scene",
+                        .remedy = "give " + option + " another name"});
+  };
+  check(scene.source);
+  check(scene.model);
+  for (const auto& [file, image] : scene.images) check(file);
+}
+
 CLI::Validator not_empty() {
   return CLI::Validator([](std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
 }

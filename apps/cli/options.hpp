@@ -82,6 +82,11 @@ class OutputFile {
 /// io::check_image_output, with nothing left behind by an interrupt.
 void check_output(const std::filesystem::path& output, image::Depth depth);
 
+/// Refuses a file to be written that the scene was read from: `shader rock.json -o rock` would write
+/// rock.json. `option` is the one that names it.
+void check_is_no_input(const scene::Scene& scene, const std::filesystem::path& output,
+                       const std::string& option);
+
 /// Refuses the empty text that an unset shell variable leaves.
 [[nodiscard]] CLI::Validator not_empty();
 

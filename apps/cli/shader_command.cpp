@@ -88,19 +88,6 @@ shadergen::FileFacts facts_of(const image::Image& image) {
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-/// Refuses a file to be written that the scene was read from: `rock.json -o rock` would write rock.json.
-void check_is_no_input(const scene::Scene& scene, const std::filesystem::path& output) {
-  const auto check = [&](const std::filesystem::path& input) {
-    std::error_code ignored; // what does not exist yet, or is built in, is no other file
-    if (std::filesystem::equivalent(input, output, ignored))
-      throw InputError(
-          {.file = output, .problem = "would replace a file of the scene", .remedy = "give -o another name"});
-  };
-  check(scene.source);
-  check(scene.model);
-  for (const auto& [file, image] : scene.images) check(file);
-}
-
 void run(const ShaderCommand& command) {
   const std::filesystem::path output = command.output;
   std::filesystem::path beside = output;
@@ -116,8 +103,8 @@ void run(const ShaderCommand& command) {
     source.scene = command.scene;
     return open_scene(source, console.report());
   }();
-  check_is_no_input(scene, output);
-  check_is_no_input(scene, beside);
+  check_is_no_input(scene, output, "-o");
+  check_is_no_input(scene, beside, "-o");
   const scene::Material& material = material_of(scene, command);
   shadergen::Options job = command.job;
   job.language = language_of(command.target);
@@ -178,7 +165,8 @@ CLI::Validator identifier() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         if (shadergen::is_name(text)) return {};
-        return fmt::format("\"{}\" is not a lower-case letter followed by letters and digits, or is taken", text);
+        return fmt::format("\"{}\" is not a lower-case letter followed by letters and digits, or is taken",
+                           text);
       },
       "");
 }

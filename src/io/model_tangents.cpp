@@ -131,9 +131,10 @@ ModelWithTangents add_tangents(const std::filesystem::path& file, const TangentO
 
 void check_glb_output(const std::filesystem::path& file) {
   if (const std::string extension = lower_extension(file); extension != ".glb")
-    throw InputError{{.file = file,
-                      .problem = fmt::format("tangents are not written for the extension \"{}\"", extension),
-                      .remedy = "expected .glb"}};
+    throw InputError{
+        {.file = file,
+         .problem = fmt::format("models are not written here for the extension \"{}\"", extension),
+         .remedy = "expected .glb"}};
   check_writable(file);
 }
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "bake/bake.hpp"
+#include "scene/scene.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace surfgrad::cli {
+
+/// What `bake --gltf FILE` writes: the model with the map inside. Does nothing where it is not asked for.
+class GltfOutput {
+ public:
+  void add_option(CLI::App& verb);
+
+  [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+  /// Before long work. Throws CLI::ValidationError where glTF cannot hold the map that is asked for, and as
+  /// io::check_glb_output.
+  void check(const bake::Options& job, const std::filesystem::path& map) const;
+  /// Refuses to replace a file of the scene.
+  void check(const scene::Scene& scene) const;
+  /// After the map was written.
+  void write(const scene::Scene& scene, const bake::Options& job, const bake::Counts& baked,
+             const std::filesystem::path& map, bool quiet) const;
+
+ private:
+  std::filesystem::path file_{};
+};
+
+} // namespace surfgrad::cli

@@ -1,0 +1,120 @@
+// Whole bakes as glTF: the model that is written shows the normals that were composed, and the Khronos
+// validator finds no error in it.
+
+#include "bake/bake.hpp"
+#include "bake/model.hpp"
+#include "displace/scene.hpp"
+#include "io/image_file.hpp"
+#include "oracles/oracle.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace surfgrad {
+namespace {
+
+struct Case {
+  const char* name;
+  std::string mesh; ///< of the shared assets; empty: the demo's
+  std::string rest; ///< of the document
+  int uv_set = 0;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+const std::string noise =
+    R"("layers": [{ "type": "noise", "function": "turbulence", "space": "object", "frequency": FREQUENCY, "scale": 0.3 }])";
+
+std::string noise_of(const char* frequency) {
+  std::string text = noise;
+  return text.replace(text.find("FREQUENCY"), 9, frequency);
+}
+
+const Case cases[] = {
+    {"demo", "", ""},
+    {"displaced_demo", "", R"("displace": { "function": "fractal_sum", "frequency": 3, "height": 0.1 })"},
+    {"suzanne", "blenderio_suzanne/02_suzanne.gltf", ""},
+    {"normal_tangent_test", "khr_NormalTangentTest/NormalTangentTest.glb", ""},
+    {"normal_tangent_mirror_test", "khr_NormalTangentMirrorTest/NormalTangentMirrorTest.glb", ""},
+    {"ogre_mirrored_uv", "ogre_mirrored_uv/testmirroreduvmesh_converted.obj", noise_of("0.2")},
+    {"pirate", "mmikk_meshes/LP_Pirate.obj", noise_of("0.5")},
+    {"displaced_suzanne", "blenderio_suzanne/02_suzanne.gltf",
+     noise_of("4") + R"(, "displace": { "function": "fractal_sum", "frequency": 2, "height": 0.05 })"},
+};
+
+/// A document of the case, beside which its mesh is named absolutely.
+scene::Scene load(const Case& c) {
+  std::string document = R"({ "surfgrad": 1)";
+  if (!c.mesh.empty()) document += R"(, "mesh": ")" SURFGRAD_SHARED_DIR "/assets/mesh/" + c.mesh + "\"";
+  if (!c.rest.empty()) document += ", " + c.rest;
+  const test::TemporaryFolder folder;
+  return scene::load_scene(folder.write("stack.json", std::string_view(document + " }")));
+}
+
+/// Angles between the world-space normals of two scenes at the texels that both cover.
+std::vector<double> angles_between(const scene::Scene& a, const scene::Scene& b,
+                                   const bake::Options& options) {
+  bake::Options world = options;
+  world.space = bake::Space::world;
+  world.depth = image::Depth::float32;
+  world.padding = 0;
+  const bake::Baked first = bake::bake(a, world);
+  const bake::Baked second = bake::bake(b, world);
+  EXPECT_EQ(first.covered, second.covered);
+  std::vector<double> degrees;
+  const auto normal = [](const image::Image& map, int x, int y) {
+    return vec3<double>{2.0 * map.at(x, y, 0) - 1, 2.0 * map.at(x, y, 1) - 1, 2.0 * map.at(x, y, 2) - 1};
+  };
+  for (int y = 0; y < options.height; ++y)
+    for (int x = 0; x < options.width; ++x) {
+      const vec3<double> n = normal(first.map, x, y);
+      const vec3<double> m = normal(second.map, x, y);
+      degrees.push_back(std::atan2(length(cross(n, m)), dot(n, m)) * 180 / std::numbers::pi);
+    }
+  std::ranges::sort(degrees);
+  return degrees;
+}
+
+class BakedGltf : public testing::TestWithParam<Case> {};
+
+TEST_P(BakedGltf, ShowsTheNormalsThatWereComposed) {
+  const Case& c = GetParam();
+  if (!c.mesh.empty() && !std::filesystem::exists(SURFGRAD_SHARED_DIR "/assets/mesh/" + c.mesh))
+    GTEST_SKIP() << c.mesh << " is absent";
+  const scene::Scene scene = load(c);
+  const bake::Options options{
+      .width = 256, .height = 256, .uv_set = c.uv_set, .padding = 16, .depth = image::Depth::unorm16};
+  const bake::Baked baked = bake::bake(scene, options);
+  const std::vector<std::byte> png = io::encode_image(baked.map, options.depth, io::ImageFormat::png);
+  const std::vector<std::byte> glb = bake::encode_model_with_maps(
+      scene, {.uv_set = c.uv_set, .normal_png = png, .is_repeated = baked.outside > 0});
+
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("out.glb", glb);
+  EXPECT_EQ(test::validator_errors({file}), "");
+  const std::vector<double> degrees = angles_between(scene, scene::load_scene(file), options);
+  double sum = 0;
+  for (const double angle : degrees) sum += angle;
+  const double mean = sum / static_cast<double>(degrees.size());
+  const std::size_t odd = static_cast<std::size_t>(baked.singular + baked.clamped);
+  const double most = degrees[degrees.size() - 1 - odd];
+  std::printf("  %s: mean %.5f, most %.5f degrees without %zu that no map can hold\n", c.name, mean, most,
+              odd);
+  EXPECT_GT(mean, 0.0) << "two scenes of the same layers are compared";
+  // The product's targets for maps of 16 bits.
+  EXPECT_LT(mean, 0.01);
+  EXPECT_LT(most, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bake, BakedGltf, testing::ValuesIn(cases),
+                         [](const auto& c) { return std::string(c.param.name); });
+
+} // namespace
+} // namespace surfgrad
