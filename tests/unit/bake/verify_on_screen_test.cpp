@@ -52,6 +52,21 @@ TEST(VerifyOnScreen, FindsNothingWhereFilteringChangesNothing) {
       }
 }
 
+TEST(VerifyOnScreen, MirroredIslandsThatShareTexelsShowTheSameBumps) {
+  scene::Scene scene = tilted(0.6);
+  std::vector<vec2<float>>& st = scene.meshes[0].uv_sets[0];
+  // The second half of the torus is mirrored: it moves over the first one. Maps repeat: the fill keeps both
+  // borders what the island is.
+  for (std::size_t i = st.size() / 2; i < st.size(); ++i) st[i].x -= 0.5f;
+  const Options options{.width = 128, .height = 128, .fill = true};
+  const Baked baked = bake(scene, options);
+  EXPECT_EQ(baked.overlapping, baked.covered);
+  const Verification got = verify(scene, options, baked.map);
+  EXPECT_LT(got.texels.most_deg, 0.002);
+  EXPECT_LT(got.on_screen.most_deg, 0.002);
+  EXPECT_GT(got.on_screen.compared, 200000);
+}
+
 TEST(VerifyOnScreen, FollowsTheUvSetAndTheSpace) {
   // Nothing in its map ends but the island of the second set: what is filtered changes little.
   const scene::Scene scene = tilted(0.6, surfgrad::test::torus(24, 12));
