@@ -7,6 +7,7 @@
 #include "io/image_file.hpp"
 #include "oracles/oracle.hpp"
 #include "support/temporary_folder.hpp"
+#include "unit/io/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -153,6 +154,22 @@ TEST_P(BakedGltf, ShowsTheNormalsThatWereComposed) {
   // The product's targets for maps of 16 bits.
   EXPECT_LT(mean, 0.01);
   EXPECT_LT(most, 0.1);
+}
+
+TEST(BakedGltfOfADocument, HasTheShapeOfItsMorphWeights) {
+  io::test::Gltf model = io::test::triangle();
+  model.json["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", model.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")}}};
+  const test::TemporaryFolder folder;
+  folder.write("m.gltf", model.gltf());
+  const scene::Scene scene = scene::load_scene(
+      folder.write("s.json", R"({ "surfgrad": 1, "mesh": "m.gltf", "morph": [3], )" + noise_of("2") + " }"));
+  const bake::Baked baked = bake::bake(scene, {.width = 8, .height = 8, .depth = image::Depth::unorm16});
+  const std::vector<std::byte> glb = bake::encode_model_with_maps(
+      scene, {.normal_png = io::encode_image(baked.map, image::Depth::unorm16, io::ImageFormat::png)});
+  const std::filesystem::path file = folder.write("out.glb", glb);
+  EXPECT_EQ(test::validator_errors({file}), "");
+  EXPECT_EQ(scene::load_scene(file).meshes.at(0).positions.at(0).z, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bake, BakedGltf, testing::ValuesIn(cases),

@@ -383,6 +383,17 @@ TEST(BakedModel, WithTheWeightsOfTheSceneIsInPlace) {
   EXPECT_FALSE(file.document["meshes"][0].contains("weights"));
 }
 
+TEST(BakedModel, OfAMorphedShapeHasTheTangentsThatTheFileGaveIt) {
+  Gltf document = morphed();
+  document.json["meshes"][0]["weights"] = {0.5};
+  document.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] =
+      document.accessor<float>({0.6f, 0.8f, 0, 1, 0.6f, 0.8f, 0, 1, 0.6f, 0.8f, 0, 1}, "VEC4");
+  const Saved saved(document);
+  const Glb file = written(baked(saved.file));
+  const json& attributes = file.document["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(file.elements<vec4<float>>(attributes["TANGENT"]).at(0).x, 0.6f);
+}
+
 TEST(BakedModel, OfAnObjHasAPrimitiveAndAMapForEachMaterial) {
   const TemporaryFolder folder;
   const auto file =
