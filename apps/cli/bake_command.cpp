@@ -44,10 +44,10 @@ void run(BakeCommand& command) {
   const ChosenDevice device(command.common.device);
   command.job.backend = device.backend();
   on_threads(command.common.threads, [&] {
-    const scene::Scene scene = open_scene(command.common, console.report());
+    scene::Scene scene = open_scene(command.common, console.report());
     OutputFile file(output, {size.width, size.height, 3}, depth, command.common.compression);
     const bake::Counts baked = bake::bake_bands(
-        scene, command.job, [&](const image::Image& band) { file.write(band); }, console.report());
+        std::move(scene), command.job, [&](const image::Image& band) { file.write(band); }, console.report());
     file.commit();
     const ChosenDevice::Filtered filtered = device.filtered();
     if (command.common.json) {

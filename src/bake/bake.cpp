@@ -10,6 +10,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace surfgrad::bake {
 namespace {
@@ -29,8 +30,8 @@ std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std
 /// Bakes rows of tiles.
 class Bands {
  public:
-  Bands(const stage::Stage& stage, const scene::Scene& scene, const Options& options)
-      : scene_(scene), options_(options), slot_(stage.slot_of(0)),
+  Bands(const stage::Stage& stage, const Options& options)
+      : scene_(stage.scene()), options_(options), slot_(stage.slot_of(0)),
         tile_side_(stage::tile_side_of(options.backend)),
         projection_(raster::Projection::texture(slot_, options.width, options.height)),
         composer_(stage, projection_, options.width, options.height, tile_side_, tile_side_,
@@ -126,28 +127,28 @@ class Bands {
 
 } // namespace
 
-Counts bake_bands(const scene::Scene& asked, const Options& options, const stage::BandSink& take,
+Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                   const Report& report) {
-  const auto displaced = displace::displaced(asked, report.at_the_start());
-  const scene::Scene& scene = displaced ? displaced->scene : asked;
-  const stage::Stage stage(scene, {}, {{0, options.space == Space::tangent}}, report, options.backend);
-  Bands bands(stage, scene, options);
+  if (auto displaced = displace::displaced(scene, report.at_the_start())) scene = std::move(displaced->scene);
+  const stage::Stage stage(std::move(scene), {}, {{0, options.space == Space::tangent}}, report,
+                           options.backend);
+  Bands bands(stage, options);
   stage::for_each_band(
       bands.count(), report,
       [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); }, take);
   Counts counts = bands.counts();
   counts.outside = triangles_outside(stage.surfaces(), stage.slot_of(0));
   if (counts.covered == 0)
-    throw InputError({.file = scene.source,
+    throw InputError({.file = stage.scene().source,
                       .problem = "no triangle covers a texel of the unit square of UV set 0",
                       .remedy = "check the mesh's texture coordinates, or bake at a larger size"});
   return counts;
 }
 
-Baked bake(const scene::Scene& scene, const Options& options, const Report& report) {
+Baked bake(scene::Scene scene, const Options& options, const Report& report) {
   Baked baked;
   baked.map = image::make_image(options.width, options.height, 3, image::Depth::unorm16);
-  static_cast<Counts&>(baked) = bake_bands(scene, options, stage::into(baked.map), report);
+  static_cast<Counts&>(baked) = bake_bands(std::move(scene), options, stage::into(baked.map), report);
   return baked;
 }
 

@@ -15,9 +15,11 @@
 namespace surfgrad::stage {
 
 BandSink into(image::Image& picture) {
-  return [next = picture.texels.end()](const image::Image& band) mutable {
-    next -= static_cast<std::ptrdiff_t>(band.texels.size());
-    std::copy(band.texels.begin(), band.texels.end(), next);
+  return [next = picture.texels.floats().end()](const image::Image& band) mutable {
+    const std::size_t count = band.texels.size();
+    next -= static_cast<std::ptrdiff_t>(count);
+    const float* values = band.texels.read(0, count, &*next);
+    std::copy(values, values + count, next);
   };
 }
 
@@ -26,8 +28,8 @@ void reshape(image::Image& image, int width, int height, int channels) {
   image.height = height;
   image.channels = channels;
   image.depth = image::Depth::float32;
-  image.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                      static_cast<std::size_t>(channels));
+  image.texels.floats().resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                               static_cast<std::size_t>(channels));
 }
 
 namespace {
