@@ -1,16 +1,27 @@
 #include "bake/bake.hpp"
 
+#include "bake/dither.hpp"
 #include "bake/encode.hpp"
+#include "bake/fill.hpp"
+#include "bake/format.hpp"
+#include "bake/padding.hpp"
+#include "bake/sample_means.hpp"
 #include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
 #include "simd/lane.hpp"
 #include "stage/stage.hpp"
 #include "stage/tile_composer.hpp"
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
 #include <utility>
+#include <variant>
 
 namespace surfgrad::bake {
 namespace {
@@ -27,21 +38,58 @@ std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std
   return count;
 }
 
+/// A map covers the unit square: says where the texture coordinates are instead if none of a triangle is in
+/// it.
+void require_something_inside(const std::vector<raster::Surface>& surfaces, std::size_t slot, int uv_set,
+                              const std::filesystem::path& source) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  vec2<double> low{infinity, infinity};
+  vec2<double> high{-infinity, -infinity};
+  for (const raster::Surface& surface : surfaces)
+    for (const auto& triangle : surface.mesh->triangles) {
+      vec2<double> from{infinity, infinity};
+      vec2<double> to{-infinity, -infinity};
+      for (const std::uint32_t vertex : triangle) {
+        const vec2<double> st = surface.slots[slot].st[vertex];
+        from = {std::min(from.x, st.x), std::min(from.y, st.y)};
+        to = {std::max(to.x, st.x), std::max(to.y, st.y)};
+      }
+      if (from.x < 1 && to.x > 0 && from.y < 1 && to.y > 0) return;
+      low = {std::min(low.x, from.x), std::min(low.y, from.y)};
+      high = {std::max(high.x, to.x), std::max(high.y, to.y)};
+    }
+  const vec2<double> square{std::floor(low.x), std::floor(low.y)};
+  const bool in_one = high.x <= square.x + 1 && high.y <= square.y + 1;
+  throw InputError(
+      {.file = source,
+       .problem =
+           in_one ? fmt::format("UV set {} lies in the unit square from ({}, {}) to ({}, {}), counted "
+                                "upwards from the lower left, and a map covers that from (0, 0) to (1, 1)",
+                                uv_set, square.x, square.y, square.x + 1, square.y + 1)
+                  : fmt::format("UV set {} lies between ({:.4g}, {:.4g}) and ({:.4g}, {:.4g}), and no "
+                                "triangle reaches into the unit square that a map covers",
+                                uv_set, low.x, low.y, high.x, high.y),
+       .remedy = in_one ? fmt::format("move its coordinates by ({}, {})", 0 - square.x, 0 - square.y)
+                        : "lay it out within the unit square"});
+}
+
 /// Bakes rows of tiles.
 class Bands {
  public:
-  Bands(const stage::Stage& stage, const Options& options)
-      : scene_(stage.scene()), options_(options), slot_(stage.slot_of(0)),
-        tile_side_(stage::tile_side_of(options.backend)),
-        projection_(raster::Projection::texture(slot_, options.width, options.height)),
-        composer_(stage, projection_, options.width, options.height, tile_side_, tile_side_,
-                  {.vertex_frame = options.space == Space::tangent, .slot = slot_}),
+  Bands(const stage::Stage& stage, const Options& options, const Format& format)
+      : scene_(stage.scene()), options_(options), format_(format), flat_(format.flat()),
+        slot_(stage.slot_of(options.uv_set)),
+        tile_side_(options.samples * std::max(1, stage::tile_side_of(options.backend) / options.samples)),
+        projection_(raster::Projection::texture(slot_, options.width * options.samples,
+                                                options.height * options.samples)),
+        composer_(stage, projection_, options.width * options.samples, options.height * options.samples,
+                  tile_side_, tile_side_, {.vertex_frame = options.space == Space::tangent, .slot = slot_}),
         own_([this] { return Own(static_cast<std::size_t>(tile_side_)); }) {}
 
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
   void make(int row, image::Image& band, const stage::GoOn& go_on) {
     const raster::Tile first = composer_.grid().tile(0, row);
-    stage::reshape(band, options_.width, first.height, 3);
+    stage::reshape(band, options_.width, first.height / options_.samples, format_.channels());
     composer_.compose_row(row, [&](const stage::ComposedTile& tile) {
       go_on();
       encode(tile, band);
@@ -51,32 +99,37 @@ class Bands {
     Counts sum;
     for (const Own& own : own_) {
       sum.covered += own.counts.covered;
+      sum.samples += own.counts.samples;
+      sum.touched += own.counts.touched;
       sum.overlapping += own.counts.overlapping;
       sum.singular += own.counts.singular;
       sum.clamped += own.counts.clamped;
       sum.degenerate += own.counts.degenerate;
+      sum.beyond_range += own.counts.beyond_range;
+      sum.steepest = std::max(sum.steepest, own.counts.steepest);
     }
     return sum;
   }
 
  private:
-  /// What one thread works with: the codes of a tile's pixels, and what it has counted.
+  /// What one thread works with: the normals of a tile's samples, and what it has counted.
   struct Own {
-    explicit Own(std::size_t side) : length(side * side + most_lanes), codes(5 * length) {}
+    explicit Own(std::size_t side) : length(side * side + most_lanes), values(5 * length) {}
     Counts counts{};
-    std::vector<std::size_t> texel_of{}; ///< of the pixels of tiles of this size, from a tile's first on
+    SampleMeans means{};
+    std::vector<std::size_t> texel_of{}; ///< where the texels of tiles of this size lie, from the first on
     int tile_width = 0;
     int tile_height = 0;
     std::size_t length;
-    std::vector<float> codes;
-    float* array(std::size_t i) { return codes.data() + i * length; }
+    std::vector<float> values;
+    float* array(std::size_t i) { return values.data() + i * length; }
   };
 
   void encode(const stage::ComposedTile& composed, image::Image& band) {
     Own& own = own_.local();
     EncodeWork work{.space = options_.space,
                     .composed = &composed.results,
-                    .code = {own.array(0), own.array(1), own.array(2)},
+                    .normal = {own.array(0), own.array(1), own.array(2)},
                     .singular = own.array(3),
                     .clamped = own.array(4)};
     for (const stage::ComposedTile::Run& run : composed.runs) {
@@ -85,39 +138,61 @@ class Bands {
       work.end = run.end;
       encode_pixels(work);
     }
+    count_samples(composed, work, own.counts);
     const raster::Tile& tile = composed.tile;
+    const int width = tile.width / options_.samples;
+    const int height = tile.height / options_.samples;
     if (own.tile_width != tile.width || own.tile_height != tile.height) {
       own.tile_width = tile.width;
       own.tile_height = tile.height;
       own.texel_of.clear();
-      for (int y = 0; y < tile.height; ++y)
-        for (int x = 0; x < tile.width; ++x) own.texel_of.push_back(band.index(x, y));
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) own.texel_of.push_back(band.index(x, y));
     }
-    const std::size_t first = band.index(tile.x, 0);
-    const auto put = [&](std::size_t pixel, float r, float g, float b) {
-      float* texel = &band.texels[first + own.texel_of[pixel]];
-      texel[0] = r;
-      texel[1] = g;
-      texel[2] = b;
+    float* const first = &band.texels[band.index(tile.x / options_.samples, 0)];
+    const auto put = [&](std::size_t texel, vec3<float> normal) {
+      const Format::Encoded encoded = format_.encode(normal, first + own.texel_of[texel]);
+      ++own.counts.covered;
+      own.counts.beyond_range += encoded.clamped ? 1 : 0;
+      own.counts.steepest = std::max<double>(own.counts.steepest, encoded.steepest);
     };
     if (composed.count < tile.width * tile.height)
-      for (std::size_t i = 0; i < own.texel_of.size(); ++i) put(i, 0.5f, 0.5f, 1.0f);
+      for (const std::size_t texel : own.texel_of) {
+        std::copy(flat_.begin(), flat_.end(), first + texel);
+        if (options_.padding > 0 || options_.fill) first[texel] = uncovered;
+      }
+    const auto normal = [&](int i) {
+      return vec3<float>{work.normal.x[i], work.normal.y[i], work.normal.z[i]};
+    };
+    if (options_.samples == 1) {
+      for (int i = 0; i < composed.count; ++i) put(static_cast<std::size_t>(composed.pixel[i]), normal(i));
+      return;
+    }
+    own.means.start(options_.space, options_.samples, width, height);
     for (int i = 0; i < composed.count; ++i)
-      put(static_cast<std::size_t>(composed.pixel[i]), work.code.x[i], work.code.y[i], work.code.z[i]);
+      own.means.add(composed.pixel[i], normal(i), work.singular[i] != 0);
+    for (std::size_t texel = 0; texel < own.texel_of.size(); ++texel)
+      if (own.means.covered(texel)) put(texel, own.means.mean(texel));
+  }
+
+  static void count_samples(const stage::ComposedTile& composed, const EncodeWork& work, Counts& counts) {
     const auto set = [&](const float* flags) {
       float sum = 0; // whole numbers within a tile
       for (int i = 0; i < composed.count; ++i) sum += flags[i];
       return static_cast<std::int64_t>(sum);
     };
-    own.counts.covered += composed.count;
-    own.counts.overlapping += composed.overlapping;
-    own.counts.singular += set(work.singular);
-    own.counts.clamped += set(work.clamped);
-    own.counts.degenerate += set(composed.results.degenerate);
+    counts.samples += composed.count;
+    counts.touched += composed.touched;
+    counts.overlapping += composed.overlapping;
+    counts.singular += set(work.singular);
+    counts.clamped += set(work.clamped);
+    counts.degenerate += set(composed.results.degenerate);
   }
 
   const scene::Scene& scene_;
   const Options& options_;
+  const Format& format_;
+  std::vector<float> flat_;
   std::size_t slot_;
   int tile_side_;
   raster::Projection projection_;
@@ -125,29 +200,64 @@ class Bands {
   tbb::enumerable_thread_specific<Own> own_;
 };
 
+/// A bake looks from nowhere.
+void refuse_layers_that_need_a_viewer(const scene::Scene& scene) {
+  for (const scene::Material& material : scene.materials)
+    for (const stack::Layer& layer : material.layers)
+      if (const auto* parallax = std::get_if<stack::ParallaxLayer>(&layer))
+        throw InputError({.file = scene.source,
+                          .line = parallax->common.line,
+                          .place = parallax->common.key,
+                          .problem = "parallax depends on the viewer, and a bake has none",
+                          .remedy = "leave it out, or give the heights to a layer of type \"height_map\""});
+}
+
 } // namespace
 
 Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                   const Report& report) {
+  const Format format(options);
+  refuse_layers_that_need_a_viewer(scene);
   if (auto displaced = displace::displaced(scene, report.at_the_start())) scene = std::move(displaced->scene);
-  const stage::Stage stage(std::move(scene), {}, {{0, options.space == Space::tangent}}, report,
+  const stage::Stage stage(std::move(scene), {}, {{options.uv_set, options.space == Space::tangent}}, report,
                            options.backend);
-  Bands bands(stage, options);
+  const std::size_t slot = stage.slot_of(options.uv_set);
+  require_something_inside(stage.surfaces(), slot, options.uv_set, stage.scene().source);
+  Bands bands(stage, options, format);
+  // From the maker over the padding and the dither to the taker.
+  stage::BandSink sink = take;
+  std::optional<Dither> dither;
+  if (options.dither) {
+    dither.emplace(options.height, format.flat(), sink);
+    sink = [&](const image::Image& band) { dither->add(band); };
+  }
+  std::optional<Fill> fill;
+  std::optional<Padding> padding;
+  if (options.fill) {
+    fill.emplace(options.width, options.height, format.flat(), sink);
+    sink = [&](const image::Image& band) { fill->add(band); };
+  } else if (options.padding > 0) {
+    padding.emplace(options.width, options.height, options.padding, format.flat(), sink);
+    sink = [&](const image::Image& band) { padding->add(band); };
+  }
   stage::for_each_band(
       bands.count(), report,
-      [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); }, take);
+      [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); }, sink);
   Counts counts = bands.counts();
-  counts.outside = triangles_outside(stage.surfaces(), stage.slot_of(0));
+  if (fill) counts.padded = fill->filled();
+  if (padding) counts.padded = padding->padded();
+  counts.outside = triangles_outside(stage.surfaces(), slot);
   if (counts.covered == 0)
-    throw InputError({.file = stage.scene().source,
-                      .problem = "no triangle covers a texel of the unit square of UV set 0",
-                      .remedy = "check the mesh's texture coordinates, or bake at a larger size"});
+    throw InputError(
+        {.file = stage.scene().source,
+         .problem = fmt::format("no triangle has an area in the unit square of UV set {}", options.uv_set),
+         .remedy = "unwrap the mesh"});
   return counts;
 }
 
 Baked bake(scene::Scene scene, const Options& options, const Report& report) {
   Baked baked;
-  baked.map = image::make_image(options.width, options.height, 3, image::Depth::unorm16);
+  baked.map = image::make_image(options.width, options.height, Format(options).channels(), options.depth);
   static_cast<Counts&>(baked) = bake_bands(std::move(scene), options, stage::into(baked.map), report);
   return baked;
 }

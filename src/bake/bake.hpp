@@ -3,6 +3,7 @@
 #include "diagnostic/report.hpp"
 #include "image/image.hpp"
 #include "scene/scene.hpp"
+#include "stack/words.hpp"
 #include "stage/backend.hpp"
 #include "stage/bands.hpp"
 
@@ -12,9 +13,16 @@ namespace surfgrad::bake {
 
 /// Space of the baked normals.
 enum class Space {
-  tangent, ///< MikkTSpace of UV set 0, green up: what engines decode with the mesh's tangents
+  tangent, ///< MikkTSpace of the UV set: what engines decode with the mesh's tangents
   object,
   world,
+};
+
+/// How a texel stands for a normal n.
+enum class Encoding {
+  rgb,        ///< n / 2 + 1/2
+  rg,         ///< the first two of these; readers reconstruct z. Tangent space alone
+  derivative, ///< slopes, as a layer `derivative_map` reads them. Tangent space alone
 };
 
 struct Options {
@@ -22,30 +30,54 @@ struct Options {
   int height = 1024;
   Space space = Space::tangent;
   const stage::Backend* backend = nullptr; ///< composes in the engine's stead
+  int uv_set = 0;
+  /// Samples along each side of a texel. Slopes are averaged, each sample's in its own frame; of object and
+  /// world space the normals. A texel counts as covered where one of its samples is.
+  int samples = 1;
+  /// Texels that no surface covers take the value of the nearest covered one within so many texels; 0: none.
+  int padding = 0;
+  bool fill = false; ///< all of them do instead, by pull and push: bake::Fill
+  stack::Green green = stack::Green::up;
+  Encoding encoding = Encoding::rgb;
+  /// Encoding derivative: slope of the largest code, and the code that means flat; see the layer.
+  double range = 1;
+  stack::NeutralCode neutral = stack::NeutralCode::between;
+  /// Encodings of two channels: a third one of 1, for files whose two channels would be grey and opacity.
+  bool full_blue = false;
+  /// What the map is to be written with: slopes are codes in integer files only.
+  image::Depth depth = image::Depth::unorm16;
+  /// Depth unorm8: values are codes already, dithered with blue noise where they are not flat.
+  bool dither = false;
 };
 
-/// What was odd about a bake.
+/// What was odd about a bake. Those after `samples` count samples.
 struct Counts {
-  std::int64_t covered = 0;
+  std::int64_t covered = 0;     ///< texels
+  std::int64_t padded = 0;      ///< texels that no surface covers, with the value of one that it does
   std::int64_t outside = 0;     ///< triangles that reach beyond [0, 1]^2: what lies there is not in the map
-  std::int64_t overlapping = 0; ///< texels that more than one triangle covers; the lowest index wins
-  /// Texels whose vertex frame (or, in object space, transform) cannot be inverted: (0, 0, 1).
+  std::int64_t samples = 0;     ///< that a surface covers; as many as texels where there is one a texel
+  std::int64_t touched = 0;     ///< whose centre none covers: the nearest point of one that reaches into them
+  std::int64_t overlapping = 0; ///< that more than one triangle covers; the lowest index wins
+  /// Whose vertex frame (or, in object space, transform) cannot be inverted: (0, 0, 1), left out of means.
   std::int64_t singular = 0;
-  std::int64_t clamped = 0;    ///< texels whose normal lies below the tangent plane: steepest slope
-  std::int64_t degenerate = 0; ///< texels without a normal, or where a layer found no frame: it is flat
+  std::int64_t clamped = 0;    ///< whose normal lies below the tangent plane: steepest slope
+  std::int64_t degenerate = 0; ///< without a normal, or where a layer found no frame: it is flat
+  /// Texels whose slope is beyond the encoding's range: it keeps its direction.
+  std::int64_t beyond_range = 0;
+  double steepest = 0; ///< encoding derivative: the largest slope along an axis
 };
 
 /// A map and what was odd about it.
 struct Baked : Counts {
-  image::Image map; ///< rgb, n / 2 + 1/2; (0, 0, 1) where no surface lies
+  image::Image map; ///< flat where no surface lies, unless padded
 };
 
-/// Bakes a scene's stack into one normal map over UV set 0, at texel centres; of a scene with a
-/// displacement it is a map for the displaced mesh. Back faces do not occur: the surface is seen from its
-/// front.
+/// Bakes a scene's stack into one normal map over a UV set, at texel centres, and where none is covered at
+/// the nearest point that lies in the texel; of a scene with a displacement it is a map for the displaced
+/// mesh. Back faces do not occur: the surface is seen from its front.
 ///
-/// Throws InputError when a mesh has no UV set 0 or nothing lies in [0, 1]^2. Same bytes for any
-/// number of threads.
+/// Throws InputError when a mesh lacks the UV set, nothing lies in [0, 1]^2 or a layer depends on the viewer.
+/// Same bytes for any number of threads.
 [[nodiscard]] Baked bake(scene::Scene scene, const Options& options, const Report& report = {});
 
 /// The same band by band, as they are done: memory does not grow with the map. A scene that is moved here

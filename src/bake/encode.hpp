@@ -11,8 +11,8 @@ struct EncodeWork {
   mat3<double> linear{};                       ///< of the object's transform
   const engine::TileWork::Results* composed{}; ///< with the vertex frame where the space is tangent
   int first = 0, end = 0;                      ///< pixels in those arrays
-  vec3<float*> code{};                         ///< n / 2 + 1/2; room for most_lanes beyond the end
-  float* singular = nullptr;                   ///< 1 or 0: Baked::singular, Baked::clamped
+  vec3<float*> normal{};                       ///< room for most_lanes beyond the end
+  float* singular = nullptr;                   ///< 1 or 0: Counts::singular, Counts::clamped
   float* clamped = nullptr;
 };
 

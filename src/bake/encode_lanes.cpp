@@ -38,14 +38,13 @@ TangentNormal<T> in_space(const EncodeWork& work, int i) {
 } // namespace
 
 void encode_pixels(const EncodeWork& work) {
-  const T half = T(0.5f);
   const T zero = T(0.0f);
   const T one = T(1.0f);
   for (int i = work.first; i < work.end; i += lane_count<T>) {
     const TangentNormal<T> n = in_space(work, i);
-    store(half * n.normal.x + half, work.code.x + i);
-    store(half * n.normal.y + half, work.code.y + i);
-    store(half * n.normal.z + half, work.code.z + i);
+    store(n.normal.x, work.normal.x + i);
+    store(n.normal.y, work.normal.y + i);
+    store(n.normal.z, work.normal.z + i);
     store(select(n.singular, one, zero), work.singular + i);
     store(select(n.clamped, one, zero), work.clamped + i);
   }

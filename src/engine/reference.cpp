@@ -31,8 +31,9 @@ void compose_tile_reference(const TileWork& work) {
   const TileWork::Results& results = work.results;
   for (int i = 0; i < work.count; ++i) {
     const raster::TileScan::Shown& shown = work.shown[static_cast<std::size_t>(work.which[i])];
+    const vec2<double> at = shown.nearest.value_or(vec2<double>{work.x[i], work.y[i]});
     raster::Fragment<double> fragment =
-        raster::make_fragment(*work.surface, shown.id.triangle, shown.planes, work.x[i], work.y[i]);
+        raster::make_fragment(*work.surface, shown.id.triangle, shown.planes, at.x, at.y);
     if (!work.wanted.screen) fragment.front_facing = true; // winding in a texture says mirrored
     if (work.wanted.to_viewer) fragment.to_viewer = normalize_or_zero(-fragment.position);
     put(fragment.to_viewer, results.to_viewer, i);

@@ -1,7 +1,10 @@
 #include "raster/tile_scan.hpp"
 
+#include "raster/reach.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace surfgrad::raster {
 
@@ -128,7 +131,7 @@ void TileScan::drop_hidden() {
 }
 
 void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& projection, const Tile& tile,
-                    std::span<const TriangleId> candidates, const Skip& skip) {
+                    std::span<const TriangleId> candidates, const Skip& skip, Coverage coverage) {
   const auto area = static_cast<std::size_t>(tile.width * tile.height);
   owners_.assign(area, nothing);
   if (projection.has_depth())
@@ -137,6 +140,7 @@ void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& proj
     covered_.assign(area, 0);
   shown_.clear();
   overlapping_ = 0;
+  touched_ = 0;
   for (const TriangleId& id : candidates) {
     const Surface& surface = surfaces[id.surface];
     const TrianglePlanes planes = projection.planes(surface, id.triangle);
@@ -180,6 +184,48 @@ void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& proj
     if (seen) shown_.push_back({id, planes, nothing, 0});
   }
   drop_hidden();
+  if (coverage == Coverage::squares) reach_into_squares(surfaces, projection, tile, candidates);
+}
+
+void TileScan::reach_into_squares(const std::vector<Surface>& surfaces, const Projection& projection,
+                                  const Tile& tile, std::span<const TriangleId> candidates) {
+  if (candidates.empty() || std::find(owners_.begin(), owners_.end(), nothing) == owners_.end()) return;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  reached_.assign(owners_.size(), {{}, {0, 0}, infinity});
+  for (const TriangleId& id : candidates) {
+    const Reach reach(projection.corners(surfaces[id.surface], id.triangle), tile.x + tile.width,
+                      tile.y + tile.height);
+    if (!reach.has_area()) continue;
+    const TrianglePlanes::Box box = reach.planes().box();
+    const PixelRange columns(box.x_low, box.x_high, tile.x, tile.width);
+    const PixelRange rows(box.y_low, box.y_high, tile.y, tile.height);
+    for (int row = rows.first; row < rows.end; ++row) {
+      const double y = tile.y + row + 0.5;
+      const auto compare = [&](int first, int end) {
+        for (int column = first; column < end; ++column) {
+          const auto i = static_cast<std::size_t>(row * tile.width + column);
+          const double x = tile.x + column + 0.5;
+          if (owners_[i] != nothing || !reach.into_square(x, y)) continue;
+          const vec2<double> point = reach.nearest(x, y);
+          const vec2<double> way = point - vec2<double>{x, y};
+          if (const double distance2 = dot(way, way); distance2 < reached_[i].distance2)
+            reached_[i] = {id, point, distance2};
+        }
+      };
+      Columns within(columns);
+      for (const vec3<double>& e : reach.widened_edges())
+        within.clip(e.x, 1 / e.x, e.x * (tile.x + 0.5) + (e.y * y + e.z), 0);
+      within.visit(compare, compare);
+    }
+  }
+  for (std::size_t i = 0; i < reached_.size(); ++i) {
+    const Reached& reached = reached_[i];
+    if (reached.distance2 == infinity) continue;
+    owners_[i] = static_cast<int>(shown_.size());
+    shown_.push_back({reached.id, projection.planes(surfaces[reached.id.surface], reached.id.triangle),
+                      static_cast<int>(i), 1, reached.point});
+    ++touched_;
+  }
 }
 
 } // namespace surfgrad::raster

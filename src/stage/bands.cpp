@@ -14,12 +14,18 @@
 
 namespace surfgrad::stage {
 
+void copy_values(const image::Image& image, int bottom, int rows, float* to) {
+  const std::size_t count = image.index(0, rows);
+  const float* values = image.texels.read(image.index(0, bottom), count, to);
+  if (values != to) std::copy_n(values, count, to);
+}
+
+void copy_values(const image::Image& image, float* to) { copy_values(image, 0, image.height, to); }
+
 BandSink into(image::Image& picture) {
   return [next = picture.texels.floats().end()](const image::Image& band) mutable {
-    const std::size_t count = band.texels.size();
-    next -= static_cast<std::ptrdiff_t>(count);
-    const float* values = band.texels.read(0, count, &*next);
-    std::copy(values, values + count, next);
+    next -= static_cast<std::ptrdiff_t>(band.texels.size());
+    copy_values(band, &*next);
   };
 }
 

@@ -144,8 +144,16 @@ void TileComposer::collect(Scratch& s) const {
   s.composed.count = first;
   s.setups.resize(shown.size());
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double x = tile.x + shown[i].first_pixel % tile.width + 0.5;
-    const double y = tile.y + shown[i].first_pixel / tile.width + 0.5;
+    double x = tile.x + shown[i].first_pixel % tile.width + 0.5;
+    double y = tile.y + shown[i].first_pixel / tile.width + 0.5;
+    if (const auto& nearest = shown[i].nearest) {
+      x = nearest->x;
+      y = nearest->y;
+      // Rounded as the setup is: so lanes find themselves at its centre, however thin the triangle.
+      const auto at = static_cast<std::size_t>(s.next[i] - 1);
+      s.x[at] = static_cast<float>(x);
+      s.y[at] = static_cast<float>(y);
+    }
     raster::set_up(stage_.surfaces()[shown[i].id.surface], shown[i].id.triangle, shown[i].planes, x, y,
                    s.setups[i]);
   }
@@ -161,12 +169,15 @@ const ComposedTile& TileComposer::compose(int column, int row) {
     s.composed.results = results_of(outputs_, s.results, length);
   }
   s.composed.tile = grid_.tile(column, row);
-  s.scan.scan(stage_.surfaces(), projection_, s.composed.tile, grid_.candidates(column, row),
-              [&](const raster::TriangleId& id, bool front) {
-                // Winding in a texture says mirrored, not turned away.
-                return projection_.has_depth() && stage_.culled(id, front);
-              });
+  s.scan.scan(
+      stage_.surfaces(), projection_, s.composed.tile, grid_.candidates(column, row),
+      [&](const raster::TriangleId& id, bool front) {
+        // Winding in a texture says mirrored, not turned away.
+        return projection_.has_depth() && stage_.culled(id, front);
+      },
+      projection_.has_depth() ? raster::Coverage::centres : raster::Coverage::squares);
   s.composed.overlapping = s.scan.overlapping();
+  s.composed.touched = s.scan.touched();
   collect(s);
   s.runs.clear();
   const auto shown = s.scan.shown();

@@ -29,6 +29,7 @@ struct ComposedTile {
   const std::int32_t* pixel = nullptr; ///< where each lies in the tile, row by row from the lower left
   engine::TileWork::Results results{}; ///< arrays of `count` values
   int overlapping = 0;                 ///< pixels under more than one triangle
+  int touched = 0; ///< pixels that show the nearest point of a triangle beside their centre
 
   /// Runs of pixels of one surface.
   struct Run {
@@ -38,7 +39,8 @@ struct ComposedTile {
   std::span<const Run> runs{};
 };
 
-/// Composes what a raster shows, tile by tile, on any number of threads. Memory is a few tiles' a thread.
+/// Composes what a raster shows, tile by tile, on any number of threads. In a texture a triangle also shows
+/// in texels that it only reaches into (raster::Coverage::squares). Memory is a few tiles' a thread.
 class TileComposer {
  public:
   /// stage, projection  must outlive the composer

@@ -12,6 +12,8 @@
 #include <tbb/global_control.h>
 
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace surfgrad::bake {
@@ -84,6 +86,72 @@ TEST(BakeJob, RefusesAMeshWithoutTextureCoordinatesOrWithNoneInTheUnitSquare) {
     FAIL() << "a mesh without texture coordinates";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("mesh \"object\""), std::string::npos) << error.what();
+  }
+}
+
+TEST(BakeJob, TellsWhereAMeshIsLaidOutThatTheMapDoesNotReach) {
+  scene::Scene scene = two_layers();
+  const auto problem_of = [&](vec2<float> move, float scale) -> std::string {
+    scene::Scene moved = scene;
+    for (vec2<float>& st : moved.meshes[0].uv_sets[0]) st = scale * st + move;
+    try {
+      (void)bake(moved, {16, 16, Space::tangent});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(problem_of({0, 0}, 1), "");
+  const std::string other = problem_of({1, -2}, 1);
+  EXPECT_NE(other.find("UV set 0 lies in the unit square from (1, -2) to (2, -1)"), std::string::npos)
+      << other;
+  EXPECT_NE(other.find("move its coordinates by (-1, 2)"), std::string::npos) << other;
+  const std::string many = problem_of({3.5f, 0}, 2);
+  EXPECT_NE(many.find("UV set 0 lies between (3.5, 0) and (5.5, 2)"), std::string::npos) << many;
+  const std::string point = problem_of({0.5f, 0.5f}, 0);
+  EXPECT_NE(point.find("no triangle has an area in the unit square of UV set 0"), std::string::npos) << point;
+}
+
+TEST(BakeJob, LaysTheMapOutInTheUvSetAskedFor) {
+  scene::Scene scene = two_layers();
+  auto& sets = scene.meshes[0].uv_sets;
+  sets.push_back(sets[0]);
+  for (vec2<float>& st : sets[1]) st = {0.9f - 0.7f * st.y, 0.1f + 0.8f * st.x}; // turned, part of the map
+  const auto swapped = [&] {
+    scene::Scene other = scene;
+    std::swap(other.meshes[0].uv_sets[0], other.meshes[0].uv_sets[1]);
+    for (stack::Layer& layer : other.materials[0].layers) std::get<stack::NormalMapLayer>(layer).map.uv = 1;
+    return other;
+  }();
+  for (const Space space : {Space::tangent, Space::world}) {
+    const Baked second = bake(scene, {.width = 60, .height = 60, .space = space, .uv_set = 1});
+    EXPECT_EQ(second.map.texels, bake(swapped, {.width = 60, .height = 60, .space = space}).map.texels);
+    EXPECT_LT(second.covered, 0.6 * 60 * 60);
+  }
+  try {
+    (void)bake(scene, {.width = 8, .height = 8, .uv_set = 2});
+    FAIL() << "a mesh without the UV set";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no texture coordinates (UV set 2)"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(BakeJob, RefusesParallaxAndNamesTheLayer) {
+  scene::Scene scene = two_layers();
+  stack::ParallaxLayer parallax;
+  parallax.common.key = "layers[2]";
+  parallax.common.line = 7;
+  parallax.map.file.path = "a";
+  scene.materials[0].layers.push_back(parallax);
+  scene.source = "stack.json";
+  try {
+    (void)bake(scene, {8, 8, Space::tangent});
+    FAIL() << "a bake that looks from nowhere";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("stack.json:7: layers[2]: parallax depends on the viewer"),
+              std::string::npos)
+        << error.what();
   }
 }
 
