@@ -158,7 +158,9 @@ class Bands {
     };
     if (composed.count < tile.width * tile.height)
       for (const std::size_t texel : own.texel_of) {
-        std::copy(flat_.begin(), flat_.end(), first + texel);
+        first[texel] = flat_[0]; // two or three values: a call to copy them costs more
+        first[texel + 1] = flat_[1];
+        if (format_.channels() == 3) first[texel + 2] = flat_[2];
         if (options_.padding > 0 || options_.fill) first[texel] = uncovered;
       }
     const auto normal = [&](int i) {

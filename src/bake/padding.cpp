@@ -101,7 +101,9 @@ void Padding::fill(int from_top, float* texels) {
     const float* value = found ? row(nearest_[static_cast<std::size_t>(from)]).texels.data() +
                                      static_cast<std::size_t>(from) * channels
                                : empty_.data();
-    std::copy_n(value, channels, texel);
+    texel[0] = value[0]; // two or three values: a call to copy them costs more
+    texel[1] = value[1];
+    if (channels == 3) texel[2] = value[2];
     padded_ += found ? 1 : 0;
   }
 }
