@@ -1,14 +1,25 @@
 #include "bake_scene.hpp"
 
+#include "io/image_file.hpp"
 #include "scene/demo_maps.hpp"
 
 namespace surfgrad::bench {
 
-scene::Scene bake_scene(int map_size) {
+namespace {
+
+/// A picture as a file holds it.
+std::shared_ptr<const image::Image> of_a_file(const image::Image& picture, image::Depth depth) {
+  return std::make_shared<const image::Image>(
+      io::decode_image(io::encode_image(picture, depth, io::ImageFormat::tiff), "memory"));
+}
+
+} // namespace
+
+scene::Scene bake_scene(int map_size, image::Depth depth) {
   scene::Scene scene = scene::demo_scene();
   scene.images.clear();
-  scene.images[first_map] = std::make_shared<image::Image>(scene::plates_normal_map(map_size));
-  scene.images[second_map] = std::make_shared<image::Image>(scene::weave_normal_map(map_size));
+  scene.images[first_map] = of_a_file(scene::plates_normal_map(map_size), depth);
+  scene.images[second_map] = of_a_file(scene::weave_normal_map(map_size), depth);
   stack::NormalMapLayer first;
   first.map.file.path = first_map;
   stack::NormalMapLayer second;

@@ -25,6 +25,7 @@
 #include <optional>
 #include <random>
 #include <string_view>
+#include <utility>
 
 namespace surfgrad::bench {
 namespace {
@@ -177,9 +178,10 @@ double own_kilobytes(std::string_view name) {
   return 0;
 }
 
-std::unique_ptr<ChildProcess> start_child(int size, int map_size) {
+std::unique_ptr<ChildProcess> start_child(int size, int map_size, int bits = 16) {
   auto child = std::make_unique<ChildProcess>(
-      std::vector<std::string>{"/proc/self/exe", "--child", std::to_string(size), std::to_string(map_size)},
+      std::vector<std::string>{"/proc/self/exe", "--child", std::to_string(size), std::to_string(map_size),
+                               std::to_string(bits)},
       "child: ");
   (void)child->answer(); // ready
   return child;
@@ -188,13 +190,13 @@ std::unique_ptr<ChildProcess> start_child(int size, int map_size) {
 /// What a child answers.
 struct Baked {
   Time time;
-  double before = 0, peak = 0; ///< bytes
+  double bare = 0, peak = 0; ///< bytes: of the process before it loaded anything, and at its peak
 };
 
 Baked answer_of(ChildProcess& child) {
   Baked baked;
   const std::string text = child.answer().value_or("");
-  if (std::sscanf(text.c_str(), "%lf %lf %lf %lf", &baked.time.cpu, &baked.time.wall, &baked.before,
+  if (std::sscanf(text.c_str(), "%lf %lf %lf %lf", &baked.time.cpu, &baked.time.wall, &baked.bare,
                   &baked.peak) != 4)
     std::fprintf(stderr, "a bake in a process of its own failed\n");
   return baked;
@@ -263,56 +265,67 @@ void race_sizes(const Request& request) {
   const std::vector<int> sizes =
       request.quick ? std::vector{128, 256, 512} : std::vector{512, 1024, 2048, 4096, 8192};
   const int map_size = request.quick ? 512 : 4096;
-  const Heat heat{"growth", fmt::format("sizes: bake under two maps of {0}x{0}", map_size),
-                  "bake",   1,
-                  1,        std::min(request.rounds, 5)};
-  std::vector<std::unique_ptr<ChildProcess>> children;
-  // Of the first bake of a process: later ones find memory that the first has given back to the process.
-  std::vector<std::optional<Baked>> first(sizes.size());
-  std::vector<Contestant> contestants;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    children.push_back(start_child(sizes[i], map_size));
-    contestants.push_back({fmt::format("{0}x{0}", sizes[i]), [&, i] {
-                             children[i]->tell("bake");
-                             const Baked baked = answer_of(*children[i]);
-                             if (!first[i]) first[i] = baked;
-                             return baked.time;
-                           }});
-  }
-  const std::vector<Result> results = run(heat, contestants);
-  constexpr double mib = 1024.0 * 1024.0;
-  report_value(heat, "of the memory below: two maps as slopes with mip levels, in floats",
-               2 * 4 * static_cast<double>(image::words_of_map(map_size, map_size, 2)) / mib, "MiB");
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const Baked& b = *first[i];
-    report_value(heat, fmt::format("{0}x{0}: memory beyond decoded inputs", sizes[i]),
-                 (b.peak - b.before) / mib, "MiB", {64, true});
-    if (sizes[i] == sizes.back())
-      report_value(heat, fmt::format("{0}x{0}: whole process at its peak", sizes[i]), b.peak / mib, "MiB",
-                   {1024, true});
-  }
-  for (std::size_t i = 1; i < sizes.size(); ++i) {
-    const std::string what = fmt::format("time of {0}x{0} over {1}x{1}", sizes[i], sizes[i - 1]);
-    const double factor = times_faster(results[i], results[i - 1]);
-    if (sizes[i] == 4096)
-      report_ratio(heat, what, factor, {4.2, true});
-    else
-      report_ratio(heat, what, factor);
+  for (const int bits : {8, 16}) {
+    const Heat heat{"growth", fmt::format("sizes: bake under two maps of {0}x{0}, {1} bits", map_size, bits),
+                    "bake",   1,
+                    1,        std::min(request.rounds, 5)};
+    std::vector<std::unique_ptr<ChildProcess>> children;
+    // Of the first bake of a process: later ones find memory that the first has given back to the process.
+    std::vector<std::optional<Baked>> first(sizes.size());
+    std::vector<Contestant> contestants;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      children.push_back(start_child(sizes[i], map_size, bits));
+      contestants.push_back({fmt::format("{0}x{0}", sizes[i]), [&, i] {
+                               children[i]->tell("bake");
+                               const Baked baked = answer_of(*children[i]);
+                               if (!first[i]) first[i] = baked;
+                               return baked.time;
+                             }});
+    }
+    const std::vector<Result> results = run(heat, contestants);
+    constexpr double mib = 1024.0 * 1024.0;
+    const int texel_words = bits == 8 ? 1 : 2; // two codes of 16 bits, or two floats
+    const double maps = 2 * 4 * static_cast<double>(image::words_of_map(map_size, map_size, texel_words));
+    report_value(heat, "the maps: slopes with their mip levels", maps / mib, "MiB");
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const Baked& b = *first[i];
+      report_value(heat, fmt::format("{0}x{0}: memory beyond the maps", sizes[i]),
+                   (b.peak - b.bare - maps) / mib, "MiB", {64, true});
+      if (sizes[i] == sizes.back())
+        report_value(heat, fmt::format("{0}x{0}: whole process at its peak", sizes[i]), b.peak / mib, "MiB",
+                     {1024, true});
+    }
+    for (std::size_t i = 1; i < sizes.size(); ++i) {
+      const std::string what = fmt::format("time of {0}x{0} over {1}x{1}", sizes[i], sizes[i - 1]);
+      const double factor = times_faster(results[i], results[i - 1]);
+      if (sizes[i] == 4096)
+        report_ratio(heat, what, factor, {4.2, true});
+      else
+        report_ratio(heat, what, factor);
+    }
   }
 }
 
-void bake_when_told(int size, int map_size) {
-  const scene::Scene scene = bake_scene(map_size);
+/// The first bake takes the scene and, as the program does, lets go of its images; the others leave theirs.
+void bake_when_told(int size, int map_size, int bits) {
+  const auto make_scene = [&] {
+    return bake_scene(map_size, bits == 8 ? image::Depth::unorm8 : image::Depth::unorm16);
+  };
+  const double bare = 1024 * own_kilobytes("VmRSS:"); // before anything is loaded
+  scene::Scene scene = make_scene();
+  bool first = true;
   std::cout << "child: ready" << std::endl;
   for (std::string line; std::getline(std::cin, line);) {
+    scene::Scene taken = first ? std::move(scene) : scene;
     std::ofstream("/proc/self/clear_refs") << "5"; // the peak starts anew
-    const double before = 1024 * own_kilobytes("VmRSS:");
     const Time time = timed([&] {
-      limited_to(1, [&] { (void)bake::bake_bands(scene, {size, size, bake::Space::tangent}, drop); });
+      limited_to(1, [&] {
+        (void)bake::bake_bands(std::move(taken), {size, size, bake::Space::tangent}, drop);
+      });
     });
-    std::cout << fmt::format("child: {} {} {} {}", time.cpu, time.wall, before,
-                             1024 * own_kilobytes("VmHWM:"))
+    std::cout << fmt::format("child: {} {} {} {}", time.cpu, time.wall, bare, 1024 * own_kilobytes("VmHWM:"))
               << std::endl;
+    if (std::exchange(first, false)) scene = make_scene();
   }
 }
 
@@ -320,8 +333,8 @@ void bake_when_told(int size, int map_size) {
 
 int main(int argc, char** argv) {
   using namespace surfgrad::bench;
-  if (argc == 4 && std::string_view(argv[1]) == "--child") {
-    bake_when_told(std::atoi(argv[2]), std::atoi(argv[3]));
+  if (argc == 5 && std::string_view(argv[1]) == "--child") {
+    bake_when_told(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
     return 0;
   }
   const Request request = parse_request(argc, argv);

@@ -71,7 +71,7 @@ mesh::TriangleMesh sphere() {
 
 /// As most normal maps come: in 8 bits.
 image::Image in_8_bits(image::Image map) {
-  for (float& value : map.texels) value = std::round(value * 255) / 255;
+  for (float& value : map.texels.floats()) value = std::round(value * 255) / 255;
   map.depth = image::Depth::unorm8;
   return map;
 }

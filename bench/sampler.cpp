@@ -34,7 +34,7 @@ constexpr int grain = 4096;
 
 /// The same map with codes of 8 bits.
 image::Image in_eight_bits(image::Image map) {
-  for (float& code : map.texels) code = std::floor(code * 255 + 0.5F) / 255;
+  for (float& code : map.texels.floats()) code = std::floor(code * 255 + 0.5F) / 255;
   map.depth = image::Depth::unorm8;
   return map;
 }

@@ -161,12 +161,15 @@ void run(BakeCommand& command) {
   const ChosenDevice device(command.common.device);
   job.backend = device.backend();
   on_threads(command.common.threads, [&] {
-    const scene::Scene scene = open_scene(command.common, console.report());
+    scene::Scene scene = open_scene(command.common, console.report());
     command.gltf.check(scene);
     const int channels = job.encoding == bake::Encoding::rgb || job.full_blue ? 3 : 2;
     OutputFile file(output, {job.width, job.height, channels}, depth, command.common.compression);
-    const bake::Counts baked = bake::bake_bands(
-        scene, job, [&](const image::Image& band) { file.write(band); }, console.report());
+    const auto write = [&](const image::Image& band) { file.write(band); };
+    // Images leave a scene that is handed over; one that is verified or written is still needed.
+    const bool is_kept = command.verify || command.gltf.is_wanted();
+    const bake::Counts baked =
+        bake::bake_bands(is_kept ? scene : std::move(scene), job, write, console.report());
     file.commit();
     command.gltf.write(scene, job, baked, output, command.common.quiet);
     std::optional<bake::Verification> verified;

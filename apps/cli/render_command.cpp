@@ -54,7 +54,7 @@ void run(RenderCommand& command) {
     const render::Aov aov = command.job.aov;
     OutputFile file(output, {size.width, size.height, 3}, depth, command.common.compression);
     const render::Counts picture = render::render_bands(
-        scene, command.job,
+        std::move(scene), command.job,
         [&](const image::Image& band) { file.write(raw ? band : render::encoded_for_display(band, aov)); },
         console.report());
     file.commit();

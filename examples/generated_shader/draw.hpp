@@ -57,9 +57,9 @@ void main() {
   std::vector<gpu::Texture> textures; // live until the commands have run
   std::vector<gpu::Handle<VkSampler>> samplers;
   for (const shadergen::TextureBinding& t : shader.textures) {
-    const image::Image map = image_of(t.files[0]);
+    image::Image map = image_of(t.files[0]);
     textures.emplace_back(
-        device, image::with_pyramid(image::rows_of(map.texels, map.width, 3), map.width, map.height, 3));
+        device, image::with_pyramid(image::rows_of(map.texels.floats(), map.width, 3), map.width, map.height, 3));
     samplers.push_back(
         gpu::make_sampler(device, gpu::Sampling::trilinear, addressing(t.wrap_s), addressing(t.wrap_t)));
     resources.bind(number(t.binding), textures.back(), samplers.back().get());
@@ -68,7 +68,7 @@ void main() {
     resources.dispatch(commands, number(side / 8), number(side / 8));
     gpu::barrier_after_writes(commands);
   });
-  std::memcpy(picture.texels.data(), pixels.mapped().data(), pixels.mapped().size());
+  std::memcpy(picture.texels.floats().data(), pixels.mapped().data(), pixels.mapped().size());
   return picture;
 }
 

@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <variant>
 
 namespace surfgrad::bake {
@@ -75,8 +76,8 @@ void require_something_inside(const std::vector<raster::Surface>& surfaces, std:
 /// Bakes rows of tiles.
 class Bands {
  public:
-  Bands(const stage::Stage& stage, const scene::Scene& scene, const Options& options, const Format& format)
-      : scene_(scene), options_(options), format_(format), flat_(format.flat()),
+  Bands(const stage::Stage& stage, const Options& options, const Format& format)
+      : scene_(stage.scene()), options_(options), format_(format), flat_(format.flat()),
         slot_(stage.slot_of(options.uv_set)),
         tile_side_(options.samples * std::max(1, stage::tile_side_of(options.backend) / options.samples)),
         projection_(raster::Projection::texture(slot_, options.width * options.samples,
@@ -215,17 +216,16 @@ void refuse_layers_that_need_a_viewer(const scene::Scene& scene) {
 
 } // namespace
 
-Counts bake_bands(const scene::Scene& asked, const Options& options, const stage::BandSink& take,
+Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                   const Report& report) {
   const Format format(options);
-  refuse_layers_that_need_a_viewer(asked);
-  const auto displaced = displace::displaced(asked, report.at_the_start());
-  const scene::Scene& scene = displaced ? displaced->scene : asked;
-  const stage::Stage stage(scene, {}, {{options.uv_set, options.space == Space::tangent}}, report,
+  refuse_layers_that_need_a_viewer(scene);
+  if (auto displaced = displace::displaced(scene, report.at_the_start())) scene = std::move(displaced->scene);
+  const stage::Stage stage(std::move(scene), {}, {{options.uv_set, options.space == Space::tangent}}, report,
                            options.backend);
   const std::size_t slot = stage.slot_of(options.uv_set);
-  require_something_inside(stage.surfaces(), slot, options.uv_set, scene.source);
-  Bands bands(stage, scene, options, format);
+  require_something_inside(stage.surfaces(), slot, options.uv_set, stage.scene().source);
+  Bands bands(stage, options, format);
   // From the maker over the padding and the dither to the taker.
   stage::BandSink sink = take;
   std::optional<Dither> dither;
@@ -251,16 +251,16 @@ Counts bake_bands(const scene::Scene& asked, const Options& options, const stage
   counts.outside = triangles_outside(stage.surfaces(), slot);
   if (counts.covered == 0)
     throw InputError(
-        {.file = scene.source,
+        {.file = stage.scene().source,
          .problem = fmt::format("no triangle has an area in the unit square of UV set {}", options.uv_set),
          .remedy = "unwrap the mesh"});
   return counts;
 }
 
-Baked bake(const scene::Scene& scene, const Options& options, const Report& report) {
+Baked bake(scene::Scene scene, const Options& options, const Report& report) {
   Baked baked;
   baked.map = image::make_image(options.width, options.height, Format(options).channels(), options.depth);
-  static_cast<Counts&>(baked) = bake_bands(scene, options, stage::into(baked.map), report);
+  static_cast<Counts&>(baked) = bake_bands(std::move(scene), options, stage::into(baked.map), report);
   return baked;
 }
 

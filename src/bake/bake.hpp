@@ -78,11 +78,12 @@ struct Baked : Counts {
 ///
 /// Throws InputError when a mesh lacks the UV set, nothing lies in [0, 1]^2 or a layer depends on the viewer.
 /// Same bytes for any number of threads.
-[[nodiscard]] Baked bake(const scene::Scene& scene, const Options& options, const Report& report = {});
+[[nodiscard]] Baked bake(scene::Scene scene, const Options& options, const Report& report = {});
 
-/// The same band by band, as they are done: memory does not grow with the map. What throws because nothing
-/// is covered does so after the last band.
-Counts bake_bands(const scene::Scene& scene, const Options& options, const stage::BandSink& take,
+/// The same band by band, as they are done: memory does not grow with the map. A scene that is moved here
+/// loses each image as soon as the last map is made of it. What throws because nothing is covered does so
+/// after the last band.
+Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                   const Report& report = {});
 
 } // namespace surfgrad::bake

@@ -25,8 +25,8 @@ void Dither::add(const image::Image& band) {
   stage::reshape(band_, band.width, band.height, band.channels);
   rows_left_ -= band.height;
   for (int y = 0; y < band.height; ++y) {
-    const float* from = band.texels.data() + band.index(0, y);
-    float* to = band_.texels.data() + band_.index(0, y);
+    float* to = band_.texels.floats().data() + band_.index(0, y);
+    const float* from = band.texels.read(band.index(0, y), band.index(band.width, 0), to);
     for (int x = 0; x < band.width; ++x, from += channels, to += channels) {
       const bool flat = std::equal(flat_.begin(), flat_.end(), from);
       for (std::size_t c = 0; c < channels; ++c) {

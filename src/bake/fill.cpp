@@ -60,11 +60,11 @@ Fill::Fill(int width, int height, std::vector<float> empty, stage::BandSink take
 void Fill::add(const image::Image& band) {
   rows_left_ -= band.height;
   image::Image& picture = levels_[0];
-  std::copy(band.texels.begin(), band.texels.end(),
-            picture.texels.begin() + static_cast<std::ptrdiff_t>(picture.index(0, rows_left_)));
+  stage::copy_values(band, picture.texels.floats().data() + picture.index(0, rows_left_));
   if (rows_left_ > 0) return;
   while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(pulled(levels_.back()));
-  if (!covered(levels_.back(), 0, 0)) std::copy(empty_.begin(), empty_.end(), levels_.back().texels.begin());
+  if (!covered(levels_.back(), 0, 0))
+    std::copy(empty_.begin(), empty_.end(), levels_.back().texels.floats().begin());
   while (levels_.size() > 1) {
     filled_ = pushed(levels_.back(), levels_[levels_.size() - 2]);
     levels_.pop_back();
@@ -74,13 +74,13 @@ void Fill::add(const image::Image& band) {
 
 void Fill::hand_over() {
   constexpr int rows_a_band = 64; // what follows copies a band once or twice: little of the picture
-  const image::Image& picture = levels_[0];
+  image::Image& picture = levels_[0];
   image::Image band;
   for (int top = picture.height; top > 0; top -= band.height) {
     stage::reshape(band, picture.width, std::min(top, rows_a_band), picture.channels);
     const auto first =
-        picture.texels.begin() + static_cast<std::ptrdiff_t>(picture.index(0, top - band.height));
-    std::copy(first, first + static_cast<std::ptrdiff_t>(band.texels.size()), band.texels.begin());
+        picture.texels.floats().begin() + static_cast<std::ptrdiff_t>(picture.index(0, top - band.height));
+    std::copy(first, first + static_cast<std::ptrdiff_t>(band.texels.size()), band.texels.floats().begin());
     take_(band);
   }
 }

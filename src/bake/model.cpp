@@ -10,7 +10,7 @@ namespace surfgrad::bake {
 std::vector<std::byte> encode_model_with_maps(const scene::Scene& asked, ModelMaps maps,
                                               const Report& report) {
   // The bake has given its warnings.
-  const auto displaced = displace::displaced(asked, {report.at_the_start().progress, {}});
+  auto displaced = displace::displaced(asked, {report.at_the_start().progress, {}});
   const scene::Scene& scene = displaced ? displaced->scene : asked;
   io::BakedModel baked{.file = scene.model,
                        .morph_weights = scene.morph_weights,
@@ -19,7 +19,7 @@ std::vector<std::byte> encode_model_with_maps(const scene::Scene& asked, ModelMa
                        .roughness = maps.roughness,
                        .uv_set = static_cast<std::size_t>(maps.uv_set),
                        .is_repeated = maps.is_repeated};
-  baked.model.meshes = scene.meshes;
+  baked.model.meshes = displaced ? std::move(displaced->scene.meshes) : asked.meshes;
   for (const scene::Object& object : scene.objects)
     baked.model.objects.push_back({object.name, object.mesh, object.world_from_object});
   for (const scene::Material& material : scene.materials) {

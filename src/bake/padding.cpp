@@ -25,8 +25,9 @@ void Padding::push(const image::Image& band, int y) {
     row = std::move(spares_.back());
     spares_.pop_back();
   }
-  const float* texels = band.texels.data() + band.index(0, y);
-  row.texels.assign(texels, texels + band.index(width_, 0));
+  row.texels.resize(band.index(width_, 0));
+  stage::copy_values(band, y, 1, row.texels.data());
+  const float* texels = row.texels.data();
   row.covered.resize(static_cast<std::size_t>(width_));
   row.count = 0;
   for (int x = 0; x < width_; ++x) {
@@ -111,7 +112,7 @@ void Padding::hand_over(int until) {
   if (until <= made_) return;
   stage::reshape(band_, width_, until - made_, static_cast<int>(empty_.size()));
   for (; made_ < until; ++made_) {
-    float* texels = band_.texels.data() + band_.index(0, until - 1 - made_);
+    float* texels = band_.texels.floats().data() + band_.index(0, until - 1 - made_);
     const Row& own = row(made_);
     std::copy(own.texels.begin(), own.texels.end(), texels);
     if (own.count == width_) {

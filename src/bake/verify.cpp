@@ -13,6 +13,8 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
+
 namespace surfgrad::bake {
 namespace {
 
@@ -47,7 +49,10 @@ class Comparison {
         }
         const int x = composed.tile.x + composed.pixel[i] % composed.tile.width;
         const int y = composed.tile.y + composed.pixel[i] / composed.tile.width;
-        const vec3<double> m = format_.decode(map_.texels.data() + map_.index(x, y), integers_, most_code_);
+        std::array<float, 4> texel;
+        const float* values =
+            map_.texels.read(map_.index(x, y), static_cast<std::size_t>(map_.channels), texel.data());
+        const vec3<double> m = format_.decode(values, integers_, most_code_);
         own.add(angle_deg(in_world(r, i, linear, m), normal), std::int64_t{y} * map_.width + x);
       }
     }

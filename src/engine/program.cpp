@@ -50,11 +50,13 @@ void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raste
 }
 
 Program compile(const std::vector<stack::Layer>& layers, const std::vector<raster::UvSlot>& slots,
-                MapLibrary& maps) {
+                MapLibrary& maps, const std::function<void(const stack::Layer&)>& done) {
   const Compiler compiler(slots, maps);
   Program program;
-  for (const stack::Layer& layer : layers)
+  for (const stack::Layer& layer : layers) {
     std::visit([&](const auto& kind) { program.layers.emplace_back(compiled(kind, compiler)); }, layer);
+    if (done) done(layer);
+  }
   return program;
 }
 

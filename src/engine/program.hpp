@@ -13,6 +13,7 @@
 #include "raster/surface.hpp"
 #include "stack/stack.hpp"
 
+#include <functional>
 #include <variant>
 #include <vector>
 
@@ -34,7 +35,10 @@ struct Program {
 void collect_uv_slots(const std::vector<stack::Layer>& layers, std::vector<raster::UvSlot>& slots);
 
 /// Compiles the layers of one material for surfaces that carry `slots`.
+///
+/// done  told of each layer whose maps are made; may be empty
 [[nodiscard]] Program compile(const std::vector<stack::Layer>& layers,
-                              const std::vector<raster::UvSlot>& slots, MapLibrary& maps);
+                              const std::vector<raster::UvSlot>& slots, MapLibrary& maps,
+                              const std::function<void(const stack::Layer&)>& done = {});
 
 } // namespace surfgrad::engine

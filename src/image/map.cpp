@@ -31,8 +31,9 @@ bool other_channels_vary(const Image& image) {
 /// In double: a slope or direction is rounded once, when it is stored. Zero for a texel of a float file
 /// that is not finite, which would otherwise spread over every level.
 vec3<double> decoded(const Image& image, std::size_t texel) {
-  const float* t = &image.texels[texel * static_cast<std::size_t>(image.channels)];
-  const vec3<double> m{2.0 * t[0] - 1, 2.0 * t[1] - 1, image.channels > 2 ? 2.0 * t[2] - 1 : 1.0};
+  const std::size_t t = texel * static_cast<std::size_t>(image.channels);
+  const vec3<double> m{2.0 * image.texels[t] - 1, 2.0 * image.texels[t + 1] - 1,
+                       image.channels > 2 ? 2.0 * image.texels[t + 2] - 1 : 1.0};
   const bool finite = std::isfinite(m.x) && std::isfinite(m.y) && std::isfinite(m.z);
   return finite ? m : vec3<double>{0, 0, 0};
 }
@@ -66,8 +67,11 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
   const SlopeCode code{result.channels == NormalChannels::xy, green_up};
   std::vector<int> inward(static_cast<std::size_t>(image.height)); // of each row, however often it is made
   const TexelRows rows = [&](int y, float* row) {
-    inward[static_cast<std::size_t>(y)] = slope_row({image.texels.data() + image.index(0, y), image.width,
-                                                     image.channels, code, !is_integer(image.depth), row});
+    thread_local std::vector<float> scratch;
+    scratch.resize(image.index(image.width, 0));
+    const float* texels = image.texels.read(image.index(0, y), scratch.size(), scratch.data());
+    inward[static_cast<std::size_t>(y)] =
+        slope_row({texels, image.width, image.channels, code, !is_integer(image.depth), row});
   };
   result.map = with_pyramid(rows, image.width, image.height, 2, code_for(image, rows));
   result.inward_texels = std::accumulate(inward.begin(), inward.end(), std::int64_t{0});
@@ -116,8 +120,8 @@ Map make_derivative_map(const Image& image, double range, bool green_up, Neutral
     return range * std::max(-1.0, (value * most - (most - half)) / half);
   };
   const TexelRows rows = rows_of_texels(image, 2, [&](std::size_t i, float* texel) {
-    const float* t = &image.texels[i * static_cast<std::size_t>(image.channels)];
-    vec2<double> d{slope(t[0]), slope(t[1])};
+    const std::size_t t = i * static_cast<std::size_t>(image.channels);
+    vec2<double> d{slope(image.texels[t]), slope(image.texels[t + 1])};
     if (!std::isfinite(d.x) || !std::isfinite(d.y)) d = {0, 0};
     d = (max_slope / std::max<double>(max_slope, max_abs(d))) * d;
     texel[0] = static_cast<float>(d.x);

@@ -19,9 +19,9 @@
 namespace surfgrad::image {
 namespace {
 
-using Texels = UninitialisedVector<float>;
+using Floats = UninitialisedVector<float>;
 
-/// Texels along one axis over whose footprint one of the next lower level averages. Sides are halved and
+/// Floats along one axis over whose footprint one of the next lower level averages. Sides are halved and
 /// rounded down, so that it is two texels long, or up to three from an odd side.
 struct Footprint {
   std::size_t first;
@@ -103,10 +103,10 @@ struct Level {
   int height;
   std::size_t row_floats;
   const TexelRows* rows; ///< null for those that lie in `texels`
-  Texels texels{};
+  Floats texels{};
 
   /// The first of these rows, which follow each other.
-  const float* band(std::size_t first, std::size_t end, Texels& scratch) const {
+  const float* band(std::size_t first, std::size_t end, Floats& scratch) const {
     if (rows == nullptr) return texels.data() + first * row_floats;
     scratch.resize((end - first) * row_floats);
     for (std::size_t y = first; y < end; ++y)
@@ -115,29 +115,76 @@ struct Level {
   }
 };
 
-/// A row as words, and the first one also as the copy above the last.
-void store(const float* texels, std::size_t y, const Level& level, Map& map) {
-  const int index = map.level_count - 1;
+/// A row of a level as words, and the first one also as the copy above the last.
+void store(const float* texels, std::size_t y, int level, Map& map) {
   const auto store_at = [&](int row) {
-    store_row(texels, static_cast<std::size_t>(level.width), static_cast<std::size_t>(map.components),
-              {map.format, map.scale}, map.words.data() + map.word(index, 0, row));
+    store_row(texels, static_cast<std::size_t>(map.width(level)), static_cast<std::size_t>(map.components),
+              {map.format, map.scale}, map.words.data() + map.word(level, 0, row));
   };
   store_at(static_cast<int>(y));
-  if (y == 0) store_at(level.height);
+  if (y == 0) store_at(map.height(level));
 }
 
-/// Stores a level and returns the next, in one pass over its texels.
-Level store_and_halve(const Level& level, Map& map) {
-  const auto n = static_cast<std::size_t>(map.components);
-  Level next{std::max(1, level.width / 2), std::max(1, level.height / 2), 0, nullptr};
-  next.row_floats = static_cast<std::size_t>(next.width) * n;
-  next.texels.resize(next.row_floats * static_cast<std::size_t>(next.height));
-  const bool even = level.width == 2 * next.width && level.height == 2 * next.height;
-  const auto columns = even ? std::vector<Footprint>{} : footprints(level.width, next.width);
+// A band of about so many floats stays in the second-level cache between being made, stored and halved.
+constexpr std::size_t band_floats = 32768;
+
+/// How often both sides can be halved without a rest, up to `most`.
+int even_halvings(int width, int height, int most) {
+  int count = 0;
+  while (count < most && width % 2 == 0 && height % 2 == 0) {
+    width /= 2;
+    height /= 2;
+    ++count;
+  }
+  return count;
+}
+
+/// Level `index` of a map, yet to be filled.
+Level empty_level(const Map& map, int index) {
+  Level level{map.width(index), map.height(index), 0, nullptr};
+  level.row_floats = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(map.components);
+  level.texels.resize(level.row_floats * static_cast<std::size_t>(level.height));
+  return level;
+}
+
+/// Stores a level and those above it, `count` in all, which have even sides, and returns the one after them.
+/// All of them are made of a band while it lies in the cache, and none of them is kept as floats.
+Level store_and_halve_evenly(const Level& level, int index, int count, Map& map) {
+  constexpr std::array halve_row{halve_even_row<1>, halve_even_row<2>, halve_even_row<3>};
+  const auto halve = halve_row[static_cast<std::size_t>(map.components - 1)];
+  Level last = empty_level(map, index + count);
+  const std::size_t rows_a_row = std::size_t{1} << count; // of `level`, to one of the last
+  const std::size_t rows = std::max<std::size_t>(1, band_floats / (level.row_floats * rows_a_row));
+  const auto last_rows = static_cast<std::size_t>(last.height);
+  in_parallel((last_rows + rows - 1) / rows, band_floats, [&](std::size_t band) {
+    std::size_t first = band * rows * rows_a_row;
+    std::size_t end = std::min(last_rows, (band + 1) * rows) * rows_a_row;
+    std::size_t row_floats = level.row_floats;
+    thread_local Floats made;
+    thread_local std::array<Floats, 2> halved;
+    const float* texels = level.band(first, end, made);
+    for (int i = 0; i < count; ++i) {
+      for (std::size_t y = first; y < end; ++y) store(texels + (y - first) * row_floats, y, index + i, map);
+      first /= 2;
+      end /= 2;
+      Floats& scratch = halved[static_cast<std::size_t>(i % 2)];
+      if (i + 1 < count) scratch.resize((end - first) * row_floats / 2);
+      float* result = i + 1 < count ? scratch.data() : last.texels.data() + first * last.row_floats;
+      for (std::size_t y = 0; y < end - first; ++y)
+        halve(texels + 2 * y * row_floats, texels + (2 * y + 1) * row_floats,
+              static_cast<std::size_t>(map.width(index + i + 1)), result + y * row_floats / 2);
+      texels = result;
+      row_floats /= 2;
+    }
+  });
+  return last;
+}
+
+/// Stores a level of any sides and returns the next.
+Level store_and_halve(const Level& level, int index, Map& map) {
+  Level next = empty_level(map, index + 1);
+  const auto columns = footprints(level.width, next.width);
   const auto rows = footprints(level.height, next.height);
-  constexpr std::array even_rows{halve_even_row<1>, halve_even_row<2>, halve_even_row<3>};
-  // A band of about so many floats stays in the second-level cache between being made, stored and halved.
-  constexpr std::size_t band_floats = 32768;
   const std::size_t band = std::max<std::size_t>(1, band_floats / (2 * level.row_floats));
   const std::size_t bands = (rows.size() + band - 1) / band;
   in_parallel(bands, band_floats, [&](std::size_t b) {
@@ -147,18 +194,13 @@ Level store_and_halve(const Level& level, Map& map) {
     const std::size_t first = rows[first_row].first;
     const std::size_t end = rows[end_row - 1].first + rows[end_row - 1].count;
     const std::size_t own_end = end_row < rows.size() ? rows[end_row].first : end;
-    thread_local Texels scratch;
+    thread_local Floats scratch;
     const float* texels = level.band(first, end, scratch);
     for (std::size_t y = first; y < own_end; ++y)
-      store(texels + (y - first) * level.row_floats, y, level, map);
-    for (std::size_t y = first_row; y < end_row; ++y) {
-      const float* below = texels + (rows[y].first - first) * level.row_floats;
-      float* result = next.texels.data() + y * next.row_floats;
-      if (even)
-        even_rows[n - 1](below, below + level.row_floats, static_cast<std::size_t>(next.width), result);
-      else
-        halve_row(below, level.row_floats, rows[y], columns, n, result);
-    }
+      store(texels + (y - first) * level.row_floats, y, index, map);
+    for (std::size_t y = first_row; y < end_row; ++y)
+      halve_row(texels + (rows[y].first - first) * level.row_floats, level.row_floats, rows[y], columns,
+                static_cast<std::size_t>(map.components), next.texels.data() + y * next.row_floats);
   });
   return next;
 }
@@ -172,7 +214,7 @@ auto largest(const TexelRows& rows, int width, int height, int components, const
   return tbb::parallel_reduce(
       tbb::blocked_range<int>(0, height, std::max<std::size_t>(1, 32768 / floats)), Value{0},
       [&](const tbb::blocked_range<int>& block, Value most) {
-        Texels row(floats);
+        Floats row(floats);
         for (int y = block.begin(); y != block.end(); ++y) {
           rows(y, row.data());
           most = std::max(most, f(row.data(), floats));
@@ -199,6 +241,20 @@ double farthest_from_codes(const float* values, std::size_t count) {
     most = std::max(most, within ? std::abs(code - rounded(code)) : 1.0);
   }
   return most;
+}
+
+/// Writes down where the levels of a map lie.
+void add_levels(int width, int height, Map& map) {
+  for (std::int64_t first = 0;;) {
+    map.level_table.insert(map.level_table.end(),
+                           {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                            static_cast<std::uint32_t>(first)});
+    ++map.level_count;
+    if (width == 1 && height == 1) return;
+    first += (std::int64_t{width} + 1) * (std::int64_t{height} + 1) * map.texel_words();
+    width = std::max(1, width / 2);
+    height = std::max(1, height / 2);
+  }
 }
 
 } // namespace
@@ -260,20 +316,17 @@ Map with_pyramid(const TexelRows& rows, int width, int height, int components, T
   assert(words <= std::numeric_limits<std::int32_t>::max() - words_read_ahead);
   map.words.resize(static_cast<std::size_t>(words + words_read_ahead));
   std::fill(map.words.end() - words_read_ahead, map.words.end(), 0);
+  add_levels(width, height, map);
   Level level{width, height, static_cast<std::size_t>(width) * static_cast<std::size_t>(components), &rows};
-  for (std::int64_t first = 0;;) {
-    map.level_table.insert(map.level_table.end(),
-                           {static_cast<std::uint32_t>(level.width), static_cast<std::uint32_t>(level.height),
-                            static_cast<std::uint32_t>(first)});
-    ++map.level_count;
-    if (level.width == 1 && level.height == 1) {
-      Texels scratch;
-      store(level.band(0, 1, scratch), 0, level, map);
-      return map;
-    }
-    first += (std::int64_t{level.width} + 1) * (std::int64_t{level.height} + 1) * map.texel_words();
-    level = store_and_halve(level, map);
+  for (int index = 0; index + 1 < map.level_count;) {
+    // Three of them: the floats of the fourth are the first to be kept, a sixty-fourth of all texels.
+    const int even = even_halvings(level.width, level.height, 3);
+    level = even > 0 ? store_and_halve_evenly(level, index, even, map) : store_and_halve(level, index, map);
+    index += std::max(1, even);
   }
+  Floats scratch;
+  store(level.band(0, 1, scratch), 0, map.level_count - 1, map);
+  return map;
 }
 
 } // namespace surfgrad::image

@@ -4,6 +4,7 @@
 
 #include "image/image.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -43,18 +44,24 @@ struct Source {
   [[nodiscard]] std::uint8_t byte(std::size_t i) const { return std::to_integer<std::uint8_t>(bytes[i]); }
 };
 
-/// The float of an integer code: code / max code, correctly rounded.
-[[nodiscard]] inline float from_code(std::uint8_t code) { return static_cast<float>(code) / 255.0f; }
-[[nodiscard]] inline float from_code(std::uint16_t code) { return static_cast<float>(code) / 65535.0f; }
-
 /// Row of the image (0 at the bottom) that holds row `file_row` of a file (0 at the top), and back.
 [[nodiscard]] inline int flipped(const image::Image& image, int file_row) {
   return image.height - 1 - file_row;
 }
 
-/// One row of an image: width * channels floats.
-[[nodiscard]] inline std::span<float> row(image::Image& image, int y) {
-  return {image.texels.data() + image.index(0, y), image.index(image.width, 0)};
+/// One row of values that are to be an image's texels: width * channels.
+template <class Value>
+[[nodiscard]] std::span<Value> row(std::vector<Value>& values, const image::Image& image, int y) {
+  return {values.data() + image.index(0, y), image.index(image.width, 0)};
+}
+
+/// Turns rows in the order of files into rows in the order of images, and back.
+template <class Value>
+void flip_rows(std::vector<Value>& values, const image::Image& image) {
+  for (int y = 0; y < image.height / 2; ++y) {
+    const auto lower = row(values, image, y);
+    std::swap_ranges(lower.begin(), lower.end(), row(values, image, flipped(image, y)).begin());
+  }
 }
 
 // Each decoder throws InputError for content it cannot turn into a whole image, std::bad_alloc

@@ -19,16 +19,18 @@ class Rows {
   Rows(const image::Image& image, int bottom, int count) : image_(&image), bottom_(bottom), count_(count) {}
 
   [[nodiscard]] int count() const { return count_; }
-  /// width * channels floats.
-  [[nodiscard]] std::span<const float> operator[](int from_top) const {
+  /// width * channels floats, until another row is asked for.
+  [[nodiscard]] std::span<const float> operator[](int from_top) {
+    row_.resize(image_->index(image_->width, 0));
     const int y = bottom_ + count_ - 1 - from_top;
-    return {image_->texels.data() + image_->index(0, y), image_->index(image_->width, 0)};
+    return {image_->texels.read(image_->index(0, y), row_.size(), row_.data()), row_.size()};
   }
 
  private:
   const image::Image* image_;
   int bottom_;
   int count_;
+  std::vector<float> row_{};
 };
 
 /// What has been asked for, checked: a shape within the limits of codecs.hpp, a depth the format holds.
@@ -48,7 +50,7 @@ class Encoder {
   Encoder& operator=(const Encoder&) = delete;
   virtual ~Encoder() = default;
 
-  virtual void encode(const Rows& rows) = 0;
+  virtual void encode(Rows& rows) = 0;
   /// After the last row.
   virtual void finish() = 0;
 };

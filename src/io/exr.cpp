@@ -192,14 +192,11 @@ Image read_pixels(const Source& source) {
   Imf::FrameBuffer target;
   const std::size_t texel_bytes = sizeof(float) * names.size();
   for (std::size_t i = 0; i < names.size(); ++i)
-    target.insert(names[i], Imf::Slice::Make(Imf::FLOAT, image.texels.data() + i, window, texel_bytes,
-                                             texel_bytes * static_cast<std::size_t>(width)));
+    target.insert(names[i], Imf::Slice::Make(Imf::FLOAT, image.texels.floats().data() + i, window,
+                                             texel_bytes, texel_bytes * static_cast<std::size_t>(width)));
   file.setFrameBuffer(target);
   file.readPixels(window.min.y, window.max.y);
-  for (int y = 0; y < height / 2; ++y) {
-    const auto lower = row(image, y);
-    std::swap_ranges(lower.begin(), lower.end(), row(image, flipped(image, y)).begin());
-  }
+  flip_rows(image.texels.floats(), image);
   return image;
 }
 

@@ -69,7 +69,7 @@ class ExrEncoder : public Encoder {
     });
   }
 
-  void encode(const Rows& rows) override {
+  void encode(Rows& rows) override {
     translate(stream_, [&] {
       // As many as the library packs together: copies of a tall band would double its memory.
       constexpr int rows_a_copy = 16;
@@ -89,7 +89,7 @@ class ExrEncoder : public Encoder {
     return names[channels_ - 1][channel];
   }
 
-  void encode(const Rows& rows, int first, int count) {
+  void encode(Rows& rows, int first, int count) {
     samples_.clear();
     for (int y = first; y < first + count; ++y)
       for (const float value : rows[y]) samples_.push_back(Sample(value));

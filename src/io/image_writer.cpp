@@ -152,7 +152,8 @@ std::vector<std::byte> encode_image(const Image& image, Depth depth, ImageFormat
   return with_memory_for(shape, {}, [&] {
     MemorySink sink;
     const auto encoder = format.make_encoder({shape, depth, compression}, sink);
-    encoder->encode(codec::Rows(image, 0, image.height));
+    codec::Rows rows(image, 0, image.height);
+    encoder->encode(rows);
     encoder->finish();
     return std::move(sink.bytes);
   });
@@ -189,7 +190,8 @@ void ImageWriter::write_rows(const Image& image, int bottom, int count) {
     throw std::invalid_argument("ImageWriter: a band of another width or channel count");
   if (bottom < 0 || count < 0 || count > rows_left_ || count > image.height - bottom)
     throw std::invalid_argument("ImageWriter: more rows than there are");
-  with_memory_for(shape_, name_, [&] { encoder_->encode(codec::Rows(image, bottom, count)); });
+  codec::Rows rows(image, bottom, count);
+  with_memory_for(shape_, name_, [&] { encoder_->encode(rows); });
   rows_left_ -= count;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include <jpeglib.h>
 
@@ -15,7 +16,6 @@
 namespace surfgrad::io::codec {
 namespace {
 
-using image::Depth;
 using image::Image;
 
 // A Huffman-coded block of 64 samples costs at least one bit, in the densest of three components.
@@ -113,17 +113,15 @@ Image decode_jpeg(const Source& source) {
   state.out_color_space = channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
   state.dct_method = JDCT_ISLOW; // the accurate one, and the same on every processor
 
-  Image image = image::make_image(static_cast<int>(state.image_width), static_cast<int>(state.image_height),
-                                  channels, Depth::unorm8);
+  Image image{static_cast<int>(state.image_width), static_cast<int>(state.image_height), channels};
+  std::vector<std::uint8_t> codes(image.index(0, image.height));
   decompress(source, [](j_decompress_ptr s) { jpeg_start_decompress(s); });
-  std::vector<JSAMPLE> samples(row(image, 0).size());
   for (int y = 0; y < image.height; ++y) {
-    JSAMPROW target = samples.data();
+    JSAMPROW target = row(codes, image, flipped(image, y)).data();
     decompress(source, [&](j_decompress_ptr s) { jpeg_read_scanlines(s, &target, 1); });
-    float* out = row(image, flipped(image, y)).data();
-    for (const JSAMPLE sample : samples) *out++ = from_code(std::uint8_t{sample});
   }
   decompress(source, [](j_decompress_ptr s) { jpeg_finish_decompress(s); });
+  image.texels = image::Texels(std::move(codes));
   return image;
 }
 

@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <new>
+#include <utility>
+#include <vector>
 
 namespace surfgrad::io::codec {
 namespace {
@@ -57,19 +58,15 @@ Layout choose_layout(const spng_ihdr& header, bool transparent) {
   }
 }
 
+/// Leaves only those samples of each texel that are kept.
 template <class Code>
-void store(const std::vector<std::byte>& raw, const Layout& layout, Image& image) {
-  const auto stored = static_cast<std::size_t>(layout.stored);
-  const std::byte* next = raw.data();
-  for (int y = 0; y < image.height; ++y) {
-    float* out = row(image, flipped(image, y)).data();
-    for (int x = 0; x < image.width; ++x, next += stored * sizeof(Code))
-      for (int channel = 0; channel < image.channels; ++channel) {
-        Code code;
-        std::memcpy(&code, next + static_cast<std::size_t>(layout.kept[channel]) * sizeof(Code), sizeof code);
-        *out++ = from_code(code);
-      }
-  }
+void pack(std::vector<Code>& codes, const Layout& layout) {
+  if (layout.stored == layout.channels) return; // all are kept, in their order
+  auto out = codes.begin();
+  for (auto texel = codes.cbegin(); texel != codes.cend(); texel += layout.stored)
+    for (int channel = 0; channel < layout.channels; ++channel) *out++ = texel[layout.kept[channel]];
+  codes.erase(out, codes.end());
+  codes.shrink_to_fit();
 }
 
 } // namespace
@@ -102,18 +99,22 @@ Image decode_png(const Source& source) {
 
   std::size_t size = 0;
   check(spng_decoded_image_size(context.get(), layout.format, &size));
-  std::vector<std::byte> raw(size);
-  check(spng_decode_image(context.get(), raw.data(), raw.size(), layout.format, layout.flags));
-  check(spng_decode_chunks(context.get())); // to the end: a file that lacks it was cut short
-
-  const bool deep = header.bit_depth == 16;
-  Image image = image::make_image(static_cast<int>(header.width), static_cast<int>(header.height),
-                                  layout.channels, deep ? Depth::unorm16 : Depth::unorm8);
+  Image image{static_cast<int>(header.width), static_cast<int>(header.height), layout.channels};
   image.has_alpha = layout.channels == 2 || layout.channels == 4;
-  if (deep)
-    store<std::uint16_t>(raw, layout, image);
-  else
-    store<std::uint8_t>(raw, layout, image);
+  const auto decode = [&]<class Code>(std::vector<Code> codes) {
+    codes.resize(size / sizeof(Code));
+    check(spng_decode_image(context.get(), codes.data(), size, layout.format, layout.flags));
+    check(spng_decode_chunks(context.get())); // to the end: a file that lacks it was cut short
+    pack(codes, layout);
+    flip_rows(codes, image);
+    image.texels = image::Texels(std::move(codes));
+  };
+  if (header.bit_depth == 16) {
+    image.depth = Depth::unorm16;
+    decode(std::vector<std::uint16_t>());
+  } else {
+    decode(std::vector<std::uint8_t>());
+  }
   return image;
 }
 

@@ -43,7 +43,7 @@ class PngEncoder : public Encoder {
                             SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE));
   }
 
-  void encode(const Rows& rows) override {
+  void encode(Rows& rows) override {
     if (deep_)
       encode(rows, deep_codes_);
     else
@@ -68,7 +68,7 @@ class PngEncoder : public Encoder {
   }
 
   template <class Code>
-  void encode(const Rows& rows, std::vector<Code>& codes) {
+  void encode(Rows& rows, std::vector<Code>& codes) {
     for (int y = 0; y < rows.count(); ++y) {
       codes.resize(rows[y].size());
       to_codes(rows[y], codes.data());

@@ -70,14 +70,14 @@ const stbi_uc* data_for_stb(const Source& source) {
 }
 
 /// Copies pixels as stb_image returns them, top row first.
-template <class Sample, class Convert>
-Image to_image(const Source& source, const Sample* pixels, int width, int height, int channels, Depth depth,
-               Convert convert) {
+template <class Sample>
+Image to_image(const Source& source, const Sample* pixels, int width, int height, int channels, Depth depth) {
   if (!pixels) source.fail_damaged(stbi_failure_reason());
-  Image image = image::make_image(width, height, channels, depth);
+  Image image{width, height, channels, depth};
   image.has_alpha = channels == 2 || channels == 4;
-  for (int y = 0; y < height; ++y)
-    for (float& value : row(image, flipped(image, y))) value = convert(*pixels++);
+  std::vector<Sample> values(pixels, pixels + image.index(0, height));
+  flip_rows(values, image);
+  image.texels = image::Texels(std::move(values));
   return image;
 }
 
@@ -207,8 +207,7 @@ Image decode_tga(const Source& source) {
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, FreePixels> pixels(stbi_load_from_memory(
       data_for_stb(source), static_cast<int>(source.bytes.size()), &width, &height, &channels, 0));
-  return to_image(source, pixels.get(), width, height, channels, Depth::unorm8,
-                  [](stbi_uc code) { return from_code(std::uint8_t{code}); });
+  return to_image(source, pixels.get(), width, height, channels, Depth::unorm8);
 }
 
 Image decode_hdr(const Source& source) {
@@ -216,8 +215,7 @@ Image decode_hdr(const Source& source) {
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<float, FreePixels> pixels(stbi_loadf_from_memory(
       data_for_stb(source), static_cast<int>(source.bytes.size()), &width, &height, &channels, 0));
-  return to_image(source, pixels.get(), width, height, channels, Depth::float32,
-                  [](float value) { return value; });
+  return to_image(source, pixels.get(), width, height, channels, Depth::float32);
 }
 
 } // namespace surfgrad::io::codec

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 namespace surfgrad::io::codec {
 namespace {
@@ -125,25 +127,17 @@ Layout read_layout(TIFF* tiff, const Source& source) {
   return layout;
 }
 
-float load_sample(const std::byte* at, Depth depth) {
-  std::uint8_t code8;
-  std::uint16_t code16;
-  float value;
-  switch (depth) {
-  case Depth::unorm8:
-    std::memcpy(&code8, at, sizeof code8);
-    return from_code(code8);
-  case Depth::unorm16:
-    std::memcpy(&code16, at, sizeof code16);
-    return from_code(code16);
-  case Depth::half:
-    std::memcpy(&code16, at, sizeof code16);
-    return imath_half_to_float(code16);
-  case Depth::float32:
-    std::memcpy(&value, at, sizeof value);
-    return value;
+/// What a sample of a file becomes: a value of the image, of the type that its depth has.
+template <class Value>
+Value load_sample(const std::byte* at, Depth depth) {
+  if (depth == Depth::half) {
+    std::uint16_t half;
+    std::memcpy(&half, at, sizeof half);
+    return static_cast<Value>(imath_half_to_float(half)); // Value is float
   }
-  return 0.0f;
+  Value value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
 }
 
 /// A rectangle of texels as the library unpacks it: a strip or a tile, of all channels or of one.
@@ -155,15 +149,17 @@ struct Block {
   int first_channel, channels;
 };
 
-void store(const Block& block, const Layout& layout, Image& image) {
+template <class Value>
+void store(const Block& block, const Layout& layout, const Image& image, std::vector<Value>& values) {
   for (int i = 0; i < block.height; ++i) {
     const std::byte* next = block.bytes.data() + static_cast<std::size_t>(i) * block.row_bytes;
     const int y = layout.bottom_up ? block.y + i : flipped(image, block.y + i);
     for (int x = block.x; x < block.x + block.width; ++x)
       for (int channel = 0; channel < block.channels; ++channel, next += layout.sample_bytes) {
-        const float value = load_sample(next, layout.depth);
-        const bool invert = layout.white_is_zero && block.first_channel + channel == 0;
-        image.at(x, y, block.first_channel + channel) = invert ? 1.0f - value : value;
+        const auto value = load_sample<Value>(next, layout.depth);
+        const bool invert = layout.white_is_zero && block.first_channel + channel == 0; // of integers alone
+        values[image.index(x, y, block.first_channel + channel)] =
+            invert ? static_cast<Value>(std::numeric_limits<Value>::max() - value) : value;
       }
   }
 }
@@ -207,26 +203,35 @@ Image decode_tiff(const Source& source) {
   source.check_plausible(std::uint64_t{row_bytes} * block_height, max_expansion);
   std::vector<std::byte> bytes(row_bytes * block_height);
 
-  Image image =
-      image::make_image(static_cast<int>(width), static_cast<int>(height), layout.channels, layout.depth);
-  image.has_alpha = layout.has_alpha;
-  for (int channel = 0; channel < layout.channels; channel += channels_per_block)
-    for (std::uint32_t y = 0; y < height; y += block_height)
-      for (std::uint32_t x = 0; x < width; x += block_width) {
-        const std::uint32_t inside_height = std::min(block_height, height - y);
-        const std::size_t expected = row_bytes * (tiled ? block_height : inside_height);
-        const auto plane = static_cast<std::uint16_t>(channel);
-        const tmsize_t got =
-            tiled ? TIFFReadEncodedTile(tiff.get(), TIFFComputeTile(tiff.get(), x, y, 0, plane), bytes.data(),
-                                        static_cast<tmsize_t>(expected))
-                  : TIFFReadEncodedStrip(tiff.get(), TIFFComputeStrip(tiff.get(), y, plane), bytes.data(),
-                                         static_cast<tmsize_t>(expected));
-        if (got < 0 || static_cast<std::size_t>(got) != expected) fail();
-        store({bytes, static_cast<int>(x), static_cast<int>(y),
-               static_cast<int>(std::min(block_width, width - x)), static_cast<int>(inside_height), row_bytes,
-               channel, channels_per_block},
-              layout, image);
-      }
+  Image image{static_cast<int>(width), static_cast<int>(height), layout.channels, layout.depth,
+              layout.has_alpha};
+  const auto read = [&]<class Value>(std::vector<Value> values) {
+    values.resize(image.index(0, image.height));
+    for (int channel = 0; channel < layout.channels; channel += channels_per_block)
+      for (std::uint32_t y = 0; y < height; y += block_height)
+        for (std::uint32_t x = 0; x < width; x += block_width) {
+          const std::uint32_t inside_height = std::min(block_height, height - y);
+          const std::size_t expected = row_bytes * (tiled ? block_height : inside_height);
+          const auto plane = static_cast<std::uint16_t>(channel);
+          const tmsize_t got =
+              tiled ? TIFFReadEncodedTile(tiff.get(), TIFFComputeTile(tiff.get(), x, y, 0, plane),
+                                          bytes.data(), static_cast<tmsize_t>(expected))
+                    : TIFFReadEncodedStrip(tiff.get(), TIFFComputeStrip(tiff.get(), y, plane), bytes.data(),
+                                           static_cast<tmsize_t>(expected));
+          if (got < 0 || static_cast<std::size_t>(got) != expected) fail();
+          store({bytes, static_cast<int>(x), static_cast<int>(y),
+                 static_cast<int>(std::min(block_width, width - x)), static_cast<int>(inside_height),
+                 row_bytes, channel, channels_per_block},
+                layout, image, values);
+        }
+    image.texels = image::Texels(std::move(values));
+  };
+  if (layout.depth == Depth::unorm8)
+    read(std::vector<std::uint8_t>());
+  else if (layout.depth == Depth::unorm16)
+    read(std::vector<std::uint16_t>());
+  else
+    read(std::vector<float>());
   return image;
 }
 

@@ -61,7 +61,7 @@ class TiffEncoder : public Encoder {
     set(TIFFTAG_ROWSPERSTRIP, std::clamp(262144 / row_bytes, 1, shape.height));
   }
 
-  void encode(const Rows& rows) override {
+  void encode(Rows& rows) override {
     for (int y = 0; y < rows.count(); ++y) {
       if (sample_bytes_ == 4)
         write_row(std::vector<float>(rows[y].begin(), rows[y].end()));

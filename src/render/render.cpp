@@ -162,10 +162,9 @@ class Bands {
 
 } // namespace
 
-Counts render_bands(const scene::Scene& asked, const Options& options, const stage::BandSink& take,
+Counts render_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                     const Report& report) {
-  const auto displaced = displace::displaced(asked, report.at_the_start());
-  const scene::Scene& scene = displaced ? displaced->scene : asked;
+  if (auto displaced = displace::displaced(scene, report.at_the_start())) scene = std::move(displaced->scene);
   const int k = samples_along_a_side(options);
   const int width = options.width * k;
   const int height = options.height * k;
@@ -176,7 +175,7 @@ Counts render_bands(const scene::Scene& asked, const Options& options, const sta
   if (options.aov == Aov::beauty) shading.emplace(scene.lights, scene.environment.get());
   const stage::View view{camera.eye, camera.relative_from_screen(width, height),
                          shading ? shading->to_sun() : vec3<double>{0, 0, 0}};
-  const stage::Stage stage(scene, view, needed, report, options.backend);
+  const stage::Stage stage(std::move(scene), view, needed, report, options.backend);
   const auto projection = raster::Projection::camera(camera.screen_from_relative(width, height), camera.near);
   Bands bands(stage, projection, options, shading ? &*shading : nullptr);
   stage::for_each_band(
@@ -195,7 +194,7 @@ Picture render(const scene::Scene& scene, const Options& options, const Report& 
 image::Image encoded_for_display(const image::Image& picture, Aov aov) {
   image::Image result = picture;
   if (aov == Aov::beauty) return result;
-  for (float& v : result.texels) v = aov == Aov::uv ? v - std::floor(v) : 0.5f * v + 0.5f;
+  for (float& v : result.texels.floats()) v = aov == Aov::uv ? v - std::floor(v) : 0.5f * v + 0.5f;
   return result;
 }
 

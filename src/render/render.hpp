@@ -43,7 +43,7 @@ struct Picture : Counts {
 [[nodiscard]] Picture render(const scene::Scene& scene, const Options& options, const Report& report = {});
 
 /// The same band by band, as they are done: memory does not grow with the picture.
-Counts render_bands(const scene::Scene& scene, const Options& options, const stage::BandSink& take,
+Counts render_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                     const Report& report = {});
 
 /// Raw values of an auxiliary picture brought into [0, 1] for integer files: vectors as v / 2 + 1/2,

@@ -16,6 +16,7 @@ struct TextureUse {
 
 /// Every file that a layer names.
 [[nodiscard]] std::vector<FileName*> files_of(Layer& layer);
+[[nodiscard]] std::vector<const FileName*> files_of(const Layer& layer);
 
 /// Every texture that a layer reads, its mask's too.
 [[nodiscard]] std::vector<TextureUse> textures_of(const Layer& layer);

@@ -14,10 +14,18 @@
 
 namespace surfgrad::stage {
 
+void copy_values(const image::Image& image, int bottom, int rows, float* to) {
+  const std::size_t count = image.index(0, rows);
+  const float* values = image.texels.read(image.index(0, bottom), count, to);
+  if (values != to) std::copy_n(values, count, to);
+}
+
+void copy_values(const image::Image& image, float* to) { copy_values(image, 0, image.height, to); }
+
 BandSink into(image::Image& picture) {
-  return [next = picture.texels.end()](const image::Image& band) mutable {
+  return [next = picture.texels.floats().end()](const image::Image& band) mutable {
     next -= static_cast<std::ptrdiff_t>(band.texels.size());
-    std::copy(band.texels.begin(), band.texels.end(), next);
+    copy_values(band, &*next);
   };
 }
 
@@ -26,8 +34,8 @@ void reshape(image::Image& image, int width, int height, int channels) {
   image.height = height;
   image.channels = channels;
   image.depth = image::Depth::float32;
-  image.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                      static_cast<std::size_t>(channels));
+  image.texels.floats().resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                               static_cast<std::size_t>(channels));
 }
 
 namespace {

@@ -17,6 +17,10 @@ void reshape(image::Image& image, int width, int height, int channels);
 /// Puts a picture together again. The picture must have its size already.
 [[nodiscard]] BandSink into(image::Image& picture);
 
+/// Copies the values of an image, or of some of its rows.
+void copy_values(const image::Image& image, float* to);
+void copy_values(const image::Image& image, int bottom, int rows, float* to);
+
 /// To be called now and then by whoever works long, from any thread: throws Cancelled when the progress
 /// callback asks to stop.
 using GoOn = std::function<void()>;

@@ -2,10 +2,14 @@
 
 #include "diagnostic/error.hpp"
 #include "mesh/tangent_signs.hpp"
+#include "stack/uses.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
+#include <utility>
 
 namespace surfgrad::stage {
 namespace {
@@ -50,31 +54,65 @@ void warn_about_tangents(const scene::Scene& scene, const std::vector<raster::Uv
     }
 }
 
+/// The images that layers name, each until the last of those layers is done with it. Maps take more room than
+/// the images that they are made of: with all of both a job would need half as much again.
+class Images {
+ public:
+  using ByName = std::map<std::filesystem::path, std::shared_ptr<const image::Image>>;
+
+  Images(ByName images, const std::vector<scene::Material>& materials) {
+    for (const scene::Material& material : materials)
+      for (const stack::Layer& layer : material.layers)
+        for (const stack::FileName* name : stack::files_of(layer)) {
+          Entry& entry = entries_[name->path];
+          entry.image = images.at(name->path);
+          ++entry.uses;
+        }
+  }
+
+  [[nodiscard]] const image::Image& find(const std::filesystem::path& file) const {
+    return *entries_.at(file).image;
+  }
+  void no_more_for(const stack::Layer& layer) {
+    for (const stack::FileName* name : stack::files_of(layer))
+      if (--entries_.at(name->path).uses == 0) entries_.erase(name->path);
+  }
+
+ private:
+  struct Entry {
+    std::shared_ptr<const image::Image> image{};
+    int uses = 0; ///< by layers
+  };
+  std::map<std::filesystem::path, Entry> entries_{};
+};
+
 } // namespace
 
-Stage::Stage(const scene::Scene& scene, const View& view, const std::vector<raster::UvSlot>& needed,
+Stage::Stage(scene::Scene scene, const View& view, const std::vector<raster::UvSlot>& needed,
              const Report& report, const Backend* backend)
-    : scene_(scene), slots_(needed) {
-  require_uv_sets(scene, needed);
-  for (const scene::Material& material : scene.materials) engine::collect_uv_slots(material.layers, slots_);
+    : scene_(std::move(scene)), slots_(needed) {
+  require_uv_sets(scene_, needed);
+  for (const scene::Material& material : scene_.materials) engine::collect_uv_slots(material.layers, slots_);
+  Images images(std::exchange(scene_.images, {}), scene_.materials);
   engine::MapLibrary maps(
-      [&](const std::filesystem::path& file) -> const image::Image& { return scene.image(file); },
-      scene.source);
-  for (const scene::Material& material : scene.materials)
-    programs_.push_back(engine::compile(material.layers, slots_, maps));
+      [&](const std::filesystem::path& file) -> const image::Image& { return images.find(file); },
+      scene_.source);
+  for (const scene::Material& material : scene_.materials)
+    programs_.push_back(engine::compile(material.layers, slots_, maps,
+                                        [&](const stack::Layer& layer) { images.no_more_for(layer); }));
   for (const auto& odd : maps.inward_texels())
     report.warn(fmt::format(
         "{}: {} of {} texels point into the surface (z <= 0); they are read as if z were positive",
         odd.file.string(), odd.count, odd.of));
-  warn_about_tangents(scene, slots_, report);
-  for (const scene::Object& object : scene.objects) {
+  warn_about_tangents(scene_, slots_, report);
+  for (const scene::Object& object : scene_.objects) {
     surfaces_.push_back(
-        raster::place_mesh(scene.meshes[object.mesh], object.world_from_object, view.origin, slots_));
+        raster::place_mesh(scene_.meshes[object.mesh], object.world_from_object, view.origin, slots_));
     placements_.push_back(engine::place(object.world_from_object, view.origin));
     placements_.back().relative_from_screen = view.relative_from_screen;
     placements_.back().to_sun = view.to_sun;
   }
-  if (backend != nullptr) composer_ = backend->prepare(scene, slots_, surfaces_, maps);
+  if (backend != nullptr) composer_ = backend->prepare(scene_, slots_, surfaces_, maps);
 }
 
 std::size_t Stage::slot_of(int uv_set) const {

@@ -27,12 +27,14 @@ class Stage {
  public:
   /// needed   texture coordinates that the job reads besides those of the layers
   /// backend  composes in the engine's stead; null: the engine
-  /// Warns about normal maps with texels that point into the surface. The scene must outlive the
-  /// stage. Throws InputError where a mesh lacks a needed UV set or the scene needs more of them than a
-  /// fragment carries.
-  Stage(const scene::Scene& scene, const View& view, const std::vector<raster::UvSlot>& needed,
-        const Report& report, const Backend* backend = nullptr);
+  /// Warns about normal maps with texels that point into the surface. Images leave the scene as soon as the
+  /// last map is made of them: of a scene that was moved here they are gone from memory. Throws InputError
+  /// where a mesh lacks a needed UV set or the scene needs more of them than a fragment carries.
+  Stage(scene::Scene scene, const View& view, const std::vector<raster::UvSlot>& needed, const Report& report,
+        const Backend* backend = nullptr);
 
+  /// The scene without its images.
+  [[nodiscard]] const scene::Scene& scene() const { return scene_; }
   /// One a scene object, in the same order.
   [[nodiscard]] const std::vector<raster::Surface>& surfaces() const { return surfaces_; }
   /// Where a UV set that the layers or the job asked for lies in Fragment::uvs.
@@ -47,7 +49,7 @@ class Stage {
   void compose(const engine::TileWork& work, const raster::TriangleId& id) const;
 
  private:
-  const scene::Scene& scene_;
+  scene::Scene scene_; // without images
   std::vector<raster::UvSlot> slots_;
   std::vector<engine::Program> programs_; // one a material
   std::vector<raster::Surface> surfaces_;

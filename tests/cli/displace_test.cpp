@@ -65,7 +65,7 @@ TEST(DisplaceCommand, DocumentsDecideAndThreadsDoNot) {
 TEST(DisplaceCommand, AMapMovesTheMeshToo) {
   const Folder folder;
   image::Image white = image::make_image(4, 4, 1, image::Depth::unorm8);
-  for (float& texel : white.texels) texel = 1;
+  for (float& texel : white.texels.floats()) texel = 1;
   io::write_image(folder.path() / "h.png", white, image::Depth::unorm8);
   folder.write("s.json", document(R"({ "map": { "map": "h.png" }, "level": 0.5, "height": 0.1 })"));
   const Outcome run = run_program({"displace", "s.json", "-o", "a.glb"}, folder.path());

@@ -5,6 +5,7 @@
 #include "golden/golden_scenes.hpp"
 #include "render/render.hpp"
 #include "simd/isa.hpp"
+#include "support/images.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -23,8 +24,10 @@ namespace {
 constexpr int side = 200;
 
 bool same_bytes(const image::Image& a, const image::Image& b) {
-  return a.texels.size() == b.texels.size() &&
-         std::memcmp(a.texels.data(), b.texels.data(), a.texels.size() * sizeof(float)) == 0;
+  const std::vector<float> values = test::values_of(a);
+  const std::vector<float> others = test::values_of(b);
+  return values.size() == others.size() &&
+         std::memcmp(values.data(), others.data(), values.size() * sizeof(float)) == 0;
 }
 
 /// What a job counts must not depend on them either.

@@ -7,10 +7,16 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace surfgrad::test {
 
 inline double most_code(image::Depth depth) { return depth == image::Depth::unorm8 ? 255 : 65535; }
+
+/// All values of a picture, for matchers.
+inline std::vector<float> values_of(const image::Image& image) {
+  return image::Texels(image.texels).floats();
+}
 
 /// A value in [0, 1] as an integer file of this depth stores and a reader returns it.
 inline float stored(double value, image::Depth depth) {
@@ -22,7 +28,7 @@ inline float stored(double value, image::Depth depth) {
 inline image::Image random_image(Random& random, int width, int height, int channels,
                                  image::Depth depth = image::Depth::unorm16) {
   image::Image result = image::make_image(width, height, channels, depth);
-  for (float& t : result.texels) t = stored(random.uniform(0, 1), depth);
+  for (float& t : result.texels.floats()) t = stored(random.uniform(0, 1), depth);
   return result;
 }
 

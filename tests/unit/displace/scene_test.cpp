@@ -28,7 +28,7 @@ stack::Displace noise_of(double height) {
 /// A map that is white everywhere: every vertex moves by the height.
 void inflate(scene::Scene& scene, double height) {
   image::Image white = image::make_image(2, 2, 1, image::Depth::unorm8);
-  for (float& texel : white.texels) texel = 1;
+  for (float& texel : white.texels.floats()) texel = 1;
   test::add_image(scene, "white", std::move(white));
   scene.displace = noise_of(height);
   scene.displace->map.emplace();

@@ -259,7 +259,7 @@ TEST_F(HeightTextures, NoHeightMakesNaN) {
   const float values[] = {
       3e38f, -3e38f, 0, 1, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(),
       1e-38f};
-  for (float& texel : wild.texels) texel = values[random.integer(7)];
+  for (float& texel : wild.texels.floats()) texel = values[random.integer(7)];
   lab.add("heights", wild);
   for (const Way& way : ways)
     for (const double height : {0.0, 5e-324, 1e12, -1e300})

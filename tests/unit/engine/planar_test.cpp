@@ -214,7 +214,7 @@ TEST_F(Planars, StayFiniteInFloatForTheLargestNumbers) {
   // The largest numbers of a document and of a half-float file, and those of a float file.
   for (const float height : {6e4F, 1e30F}) {
     image::Image cliffs = surfgrad::test::random_image(random, 8, 8, 1, image::Depth::float32);
-    for (float& texel : cliffs.texels) texel *= height;
+    for (float& texel : cliffs.texels.floats()) texel *= height;
     lab.add("cliffs", cliffs);
     stack::PlanarLayer layer = planar_layer("cliffs", PlaneAxis::y, stack::Content::height);
     layer.map.height = 1e12;

@@ -64,9 +64,9 @@ TEST(Figures, ShowUnitNormalsOnASurfaceThatIsNowhereDegenerate) {
       EXPECT_EQ(seen.degenerate, 0) << picture_name(figure, panel);
       std::int64_t unit = 0;
       for (std::size_t i = 0; i < seen.image.texels.size(); i += 3) {
-        const float* n = &seen.image.texels[i];
+        const image::Texels& n = seen.image.texels;
         // Normalised in float: 3 eps (normalize_or_zero).
-        if (std::abs(std::hypot(double(n[0]), double(n[1]), double(n[2])) - 1) < 3.6e-7) ++unit;
+        if (std::abs(std::hypot(double(n[i]), double(n[i + 1]), double(n[i + 2])) - 1) < 3.6e-7) ++unit;
       }
       EXPECT_EQ(unit, seen.covered) << picture_name(figure, panel);
     }

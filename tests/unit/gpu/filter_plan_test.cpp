@@ -29,7 +29,7 @@ constexpr double error = 0.01; // of every texel of a map
 image::Image smooth_map(int seed, double low, double high) {
   Random random(static_cast<std::uint64_t>(seed));
   image::Image image = image::make_image(24, 16, 3, image::Depth::float32);
-  for (float& t : image.texels) t = static_cast<float>(random.uniform(low, high));
+  for (float& t : image.texels.floats()) t = static_cast<float>(random.uniform(low, high));
   return image;
 }
 

@@ -10,6 +10,7 @@
 #include "stack/uses.hpp"
 #include "stacks.hpp"
 #include "support/angle.hpp"
+#include "support/images.hpp"
 #include "support/vulkan.hpp"
 
 #include <algorithm>
@@ -241,7 +242,7 @@ TEST_F(SameAnswer, GivesEveryPictureThatARenderOffers) {
     options.backend = &backend();
     const render::Picture got = render::render(scene, options);
     double largest = 0;
-    for (const float v : expected.image.texels) largest = std::max(largest, std::abs(double{v}));
+    for (const float v : test::values_of(expected.image)) largest = std::max(largest, std::abs(double{v}));
     EXPECT_GT(largest, 0.1) << "the picture is empty";
     // Surface gradients grow towards silhouettes: relative to the largest.
     EXPECT_LT(largest_difference(expected.image, got.image), 1e-4 * std::max(1.0, largest))

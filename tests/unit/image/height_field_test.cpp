@@ -114,7 +114,7 @@ Map heights(test::Random& random, int width, int height) {
   Image image = test::random_image(random, width, height, 1);
   const int kind = random.integer(3);
   const float plain = static_cast<float>(random.uniform(0, 0.3));
-  for (float& t : image.texels) {
+  for (float& t : image.texels.floats()) {
     if (kind == 1) t = random.integer(20) == 0 ? t : plain;
     if (kind == 2) t = std::floor(t * 4) / 4;
   }
@@ -329,7 +329,7 @@ TYPED_TEST(HeightMarch, MeetsTheTopAndTheGroundExactly) {
   using T = TypeParam;
   for (const float level : {0.0f, 1.0f}) {
     Image image = make_image(9, 4, 1, Depth::float32);
-    std::fill(image.texels.begin(), image.texels.end(), level);
+    std::fill(image.texels.floats().begin(), image.texels.floats().end(), level);
     const HeightField field = make_height_field(make_channel_map(image, 0));
     for (const Wrap wrap : wraps)
       for (const T d : {T(0), T(0.01), T(-0.7), T(55)}) {
@@ -354,8 +354,8 @@ TYPED_TEST(HeightMarch, EndsWithinItsBoundForAnyInput) {
   for (const auto& [width, height] : std::vector<std::pair<int, int>>{{1, 1}, {3, 8}, {64, 64}}) {
     // A plain with walls, so that many rays go a long way.
     Image image = test::random_image(random, width, height, 1);
-    for (float& t : image.texels) t *= t < 0.1f ? 1.0f : 0.0f;
-    image.texels.back() = 1;
+    for (float& t : image.texels.floats()) t *= t < 0.1f ? 1.0f : 0.0f;
+    image.texels.floats().back() = 1;
     const HeightField field = make_height_field(make_channel_map(image, 0));
     for (const Wrap wrap : wraps)
       for (const T s : coordinates)

@@ -37,7 +37,7 @@ TEST(AssetImages, EveryOneDecodesToFiniteTexels) {
       ASSERT_EQ(image.texels.size(), image.index(0, image.height));
       const bool integer = image.depth == image::Depth::unorm8 || image.depth == image::Depth::unorm16;
       float low = image.texels[0], high = image.texels[0];
-      for (const float value : image.texels) {
+      for (const float value : image.texels.floats()) {
         ASSERT_TRUE(std::isfinite(value));
         low = std::min(low, value);
         high = std::max(high, value);

@@ -91,7 +91,7 @@ TEST(EncodeImage, EveryFormatDepthAndChannelCountComesBackBitForBit) {
       SCOPED_TRACE(std::string(f.name) + ", channels " + std::to_string(channels));
       // Odd sides, and wide enough that a TIFF takes several strips.
       Image image = image::make_image(1999, 53, channels, f.depth);
-      for (float& value : image.texels) value = exact_value(random, f.depth);
+      for (float& value : image.texels.floats()) value = exact_value(random, f.depth);
       const Image back = io::decode_image(io::encode_image(image, f.depth, f.format), "memory");
       ASSERT_EQ(back.width, image.width);
       ASSERT_EQ(back.height, image.height);
@@ -112,7 +112,7 @@ TEST(EncodeImage, IntegersAreRoundedToNearestAndClamped) {
                           1.0f,  1.5f, infinity,  254.4f / 255};
   const int codes[] = {0, 0, 0, 10, 11, 255, 255, 255, 254};
   Image image = image::make_image(9, 1, 1);
-  image.texels.assign(std::begin(inputs), std::end(inputs));
+  image.texels.floats().assign(std::begin(inputs), std::end(inputs));
   for (const ImageFormat format : {ImageFormat::png, ImageFormat::tiff}) {
     const Image back = io::decode_image(io::encode_image(image, Depth::unorm8, format), "memory");
     for (std::size_t i = 0; i < 9; ++i)

@@ -165,7 +165,7 @@ TEST(Environment, SurvivesTexelsThatAreNoNumbers) {
 
 TEST(Environment, OfGreyImagesIsGrey) {
   image::Image map = image::make_image(8, 4, 1, image::Depth::float32);
-  for (float& t : map.texels) t = 0.75f;
+  for (float& t : map.texels.floats()) t = 0.75f;
   const vec3<double> got = Environment(map, 0.5).diffuse<double>({0, 1, 0});
   EXPECT_NEAR(got.x, 0.75, 1e-6);
   EXPECT_NEAR(got.z, 0.75, 1e-6);

@@ -74,7 +74,7 @@ TEST(RenderJob, OfTheDemoHasNoDegenerateSample) {
   const Picture picture = render(scene::demo_scene(), {64, 64, 2, Aov::beauty});
   EXPECT_GT(picture.covered, 4000);
   EXPECT_EQ(picture.degenerate, 0);
-  for (const float v : picture.image.texels) EXPECT_TRUE(v > 0 && v <= 1);
+  for (const float v : test::values_of(picture.image)) EXPECT_TRUE(v > 0 && v <= 1);
 }
 
 TEST(RenderJob, CountsSamplesWithoutAFrame) {

@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace surfgrad::stage {
@@ -49,6 +51,19 @@ TEST(Stage, RunsEachTrianglesOwnLayers) {
     const auto c = engine::compose_reference(*work.program, f, work.back_faces, *work.placement);
     EXPECT_EQ(max_abs(c.normal - vec3<double>{0, 0, 1}) > 0.1, t == 1);
   }
+}
+
+TEST(Stage, LetsGoOfTheImagesOfASceneThatIsMovedToIt) {
+  scene::Scene scene = two_materials();
+  surfgrad::test::add_image(scene, "unused", surfgrad::test::constant_image(1, 1, {0.5, 0.5, 1}));
+  scene.materials[0].layers = {surfgrad::test::normal_layer("tilt"), surfgrad::test::normal_layer("tilt")};
+  std::vector<std::weak_ptr<const image::Image>> images;
+  for (const auto& [name, image] : scene.images) images.emplace_back(image);
+  ASSERT_EQ(images.size(), 2u);
+  const Stage of_a_copy(scene, {0, 0, 0}, {}, {});
+  for (const auto& image : images) EXPECT_FALSE(image.expired());
+  const Stage stage(std::move(scene), {0, 0, 0}, {}, {});
+  for (const auto& image : images) EXPECT_TRUE(image.expired());
 }
 
 TEST(Stage, FindsTheSlotsOfLayersAndOfTheJob) {

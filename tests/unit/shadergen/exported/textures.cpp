@@ -45,8 +45,8 @@ std::vector<float> faces_of(const image::Image& strip) {
   for (int face = 0; face < 6; ++face)
     for (int y = side - 1; y >= 0; --y)
       for (int x = 0; x < side; ++x) {
-        const float* texel = &strip.texels[strip.index(face * side + x, y)];
-        texels.insert(texels.end(), {texel[0], texel[1], texel[2], 0.0f});
+        for (int c = 0; c < 3; ++c) texels.push_back(strip.at(face * side + x, y, c));
+        texels.push_back(0);
       }
   return texels;
 }
