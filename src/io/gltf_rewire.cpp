@@ -29,48 +29,39 @@ int index_in(const Json& value, const char* key) {
                                                                                       : -1;
 }
 
-/// The metallic of the texture at texel centres of an image of another size, over the same UV set: the
-/// nearest texels, weighted.
-class Metallic {
- public:
-  explicit Metallic(const image::Image& source) : source_(&source), channel_(source.source_of(2)) {}
-
-  [[nodiscard]] float at(int x, int y, const image::Image& target) const {
-    const Step across = step(x, target.width, source_->width);
-    const Step up = step(y, target.height, source_->height);
-    const auto row = [&](int v) {
-      return (1 - across.weight) * source_->at(across.low, v, channel_) +
-             across.weight * source_->at(across.high, v, channel_);
-    };
-    return (1 - up.weight) * row(up.low) + up.weight * row(up.high);
-  }
-
- private:
-  struct Step {
-    int low, high;
-    float weight; ///< of the higher one
-  };
-  static Step step(int i, int count, int source_count) {
-    const double position = (i + 0.5) / count * source_count - 0.5;
-    const double below = std::floor(position);
-    const auto bounded = [&](double j) { return static_cast<int>(std::clamp(j, 0.0, source_count - 1.0)); };
-    return {bounded(below), bounded(below + 1), static_cast<float>(position - below)};
-  }
-
-  const image::Image* source_;
-  int channel_;
+/// The two texels of a row of `source_count` that lie beside the centre of texel i of `count`.
+struct Neighbours {
+  int low, high;
+  float weight; ///< of the higher one
 };
+Neighbours neighbours(int i, int count, int source_count) {
+  const double position = (i + 0.5) / count * source_count - 0.5;
+  const double below = std::floor(position);
+  const auto bounded = [&](double j) { return static_cast<int>(std::clamp(j, 0.0, source_count - 1.0)); };
+  return {bounded(below), bounded(below + 1), static_cast<float>(position - below)};
+}
+
+/// The metallic at the centre of a texel of another image over the same UV set: the nearest texels, weighted.
+float metallic_at(const image::Image& source, int x, int y, const image::Image& target) {
+  const int channel = source.source_of(2);
+  const Neighbours across = neighbours(x, target.width, source.width);
+  const Neighbours up = neighbours(y, target.height, source.height);
+  const auto row = [&](int v) {
+    return (1 - across.weight) * source.at(across.low, v, channel) +
+           across.weight * source.at(across.high, v, channel);
+  };
+  return (1 - up.weight) * row(up.low) + up.weight * row(up.high);
+}
 
 /// Roughness in G and metallic in B, as the format has them; R is nobody's, or occlusion, of which there is
 /// none.
 std::vector<std::byte> packed(const image::Image& roughness, const image::Image* metallic) {
   image::Image result = image::make_image(roughness.width, roughness.height, 3);
-  const auto source = metallic ? std::optional<Metallic>(*metallic) : std::nullopt;
   for (int y = 0; y < result.height; ++y)
     for (int x = 0; x < result.width; ++x) {
       result.at(x, y, 0) = 1;
       result.at(x, y, 1) = roughness.at(x, y, 0);
-      result.at(x, y, 2) = source ? source->at(x, y, result) : 1;
+      result.at(x, y, 2) = metallic ? metallic_at(*metallic, x, y, result) : 1;
     }
   return encode_image(result, image::Depth::unorm8, ImageFormat::png, Compression::small);
 }

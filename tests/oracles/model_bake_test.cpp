@@ -30,11 +30,12 @@ using testing::UnorderedElementsAre;
 
 std::vector<std::byte> png_of(float r, float g, float b, int side = 4) {
   image::Image image = image::make_image(side, side, 3);
-  for (std::size_t i = 0; i < image.texels.size(); i += 3) {
-    image.texels[i] = r;
-    image.texels[i + 1] = g;
-    image.texels[i + 2] = b;
-  }
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      image.at(x, y, 0) = r;
+      image.at(x, y, 1) = g;
+      image.at(x, y, 2) = b;
+    }
   return encode_image(image, image::Depth::unorm8, ImageFormat::png);
 }
 
@@ -243,7 +244,8 @@ TEST(BakedModel, GivesAMaterialToMeshesThatHaveNone) {
 
 TEST(BakedModel, HasTheRoughnessBesideTheMetallicThatWasThere) {
   image::Image roughness = image::make_image(8, 8, 1);
-  for (float& r : roughness.texels) r = 0.4f;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) roughness.at(x, y, 0) = 0.4f;
   const auto texture_of = [](const Glb& file, std::size_t material) {
     const json& shading = file.document["materials"][material]["pbrMetallicRoughness"];
     EXPECT_FALSE(shading.contains("roughnessFactor"));
