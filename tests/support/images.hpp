@@ -18,6 +18,12 @@ inline std::vector<float> values_of(const image::Image& image) {
   return image::Texels(image.texels).floats();
 }
 
+/// Whether the three values that begin with the i-th are the same.
+inline bool same_texel(const image::Image& a, const image::Image& b, std::size_t i) {
+  return a.texels[i] == b.texels[i] && a.texels[i + 1] == b.texels[i + 1] &&
+         a.texels[i + 2] == b.texels[i + 2];
+}
+
 /// A value in [0, 1] as an integer file of this depth stores and a reader returns it.
 inline float stored(double value, image::Depth depth) {
   const double most = most_code(depth);

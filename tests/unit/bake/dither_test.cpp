@@ -3,6 +3,7 @@
 #include "bake/dither.hpp"
 
 #include "bake/blue_noise.hpp"
+#include "stage/bands.hpp"
 #include "support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -99,8 +100,7 @@ image::Image dithered(std::vector<float> value, int width, int height) {
     image::Image band;
     stage::reshape(band, width, std::min(top, 23), 3);
     top -= band.height;
-    std::copy_n(map.texels.begin() + static_cast<std::ptrdiff_t>(map.index(0, top)), band.texels.size(),
-                band.texels.begin());
+    stage::copy_values(map, top, band.height, band.texels.floats().data());
     dither.add(band);
   }
   return result;

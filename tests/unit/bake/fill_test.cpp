@@ -4,6 +4,8 @@
 
 #include "bake/bake.hpp"
 #include "bake/padding.hpp"
+#include "stage/bands.hpp"
+#include "support/images.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 
@@ -39,8 +41,7 @@ image::Image filled(Random& random, const image::Image& map, std::int64_t& count
     image::Image band;
     stage::reshape(band, map.width, 1 + random.integer(top), 3);
     top -= band.height;
-    std::copy_n(map.texels.begin() + static_cast<std::ptrdiff_t>(map.index(0, top)), band.texels.size(),
-                band.texels.begin());
+    stage::copy_values(map, top, band.height, band.texels.floats().data());
     fill.add(band);
   }
   count = fill.filled();
@@ -75,7 +76,7 @@ TEST(Fill, GivesEveryMipLevelTheMeanOfWhatIsCoveredAlone) {
   for (const int side : {1, 2, 16, 64}) {
     const image::Image map = random_coverage(random, side, side, side < 3 ? 1 : 0.02);
     std::int64_t count = 0;
-    const image::Image got = filled(random, map, count);
+    image::Image got = filled(random, map, count);
     for (int block = 1; block <= side; block *= 2)
       for (int y = 0; y < side; y += block)
         for (int x = 0; x < side; x += block)
@@ -101,18 +102,19 @@ TEST(Fill, KeepsWhatIsCoveredAndLeavesNothingOutWhateverTheSizeAndTheBands) {
     const image::Image map = random_coverage(random, 1 + random.integer(40), 1 + random.integer(40),
                                              std::pow(random.uniform(0, 1), 4));
     std::int64_t count = 0;
-    const image::Image got = filled(random, map, count);
+    image::Image got = filled(random, map, count);
     std::int64_t expected_count = 0;
     bool any = false;
     for (std::size_t i = 0; i < map.texels.size(); i += 3) any = any || !std::isnan(map.texels[i]);
     for (std::size_t i = 0; i < map.texels.size(); i += 3) {
       if (!std::isnan(map.texels[i])) {
-        ASSERT_TRUE(std::equal(&map.texels[i], &map.texels[i] + 3, &got.texels[i]));
+        ASSERT_TRUE(test::same_texel(map, got, i));
         continue;
       }
       ++expected_count;
       if (!any) {
-        ASSERT_TRUE(std::equal(nothing.begin(), nothing.end(), &got.texels[i]));
+        ASSERT_TRUE(std::equal(nothing.begin(), nothing.end(),
+                               got.texels.floats().begin() + static_cast<std::ptrdiff_t>(i)));
       } else {
         for (std::size_t c = 0; c < 3; ++c) ASSERT_TRUE(got.texels[i + c] >= 0 && got.texels[i + c] <= 1);
       }
@@ -143,7 +145,7 @@ TEST(Fill, OfABakeGivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(many.padded, 90 * 110 - bare.covered);
   std::int64_t changed = 0;
   for (std::size_t i = 0; i < bare.map.texels.size(); i += 3) {
-    if (std::equal(&bare.map.texels[i], &bare.map.texels[i] + 3, &many.map.texels[i])) continue;
+    if (test::same_texel(bare.map, many.map, i)) continue;
     EXPECT_EQ(bare.map.texels[i + 2], 1.0f);
     ++changed;
   }

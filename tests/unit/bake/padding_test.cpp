@@ -3,6 +3,8 @@
 #include "bake/padding.hpp"
 
 #include "bake/bake.hpp"
+#include "stage/bands.hpp"
+#include "support/images.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 
@@ -65,8 +67,7 @@ image::Image padded(Random& random, const image::Image& map, int reach, std::int
     image::Image band;
     stage::reshape(band, map.width, 1 + random.integer(top), 3);
     top -= band.height;
-    std::copy_n(map.texels.begin() + static_cast<std::ptrdiff_t>(map.index(0, top)), band.texels.size(),
-                band.texels.begin());
+    stage::copy_values(map, top, band.height, band.texels.floats().data());
     padding.add(band);
   }
   count = padding.padded();
@@ -121,7 +122,7 @@ TEST(Padding, OfABakeTouchesNoCoveredTexelAndGivesTheSameBytesForAnyNumberOfThre
   EXPECT_LT(many.padded, 51 * 59 - many.covered);
   std::int64_t changed = 0;
   for (std::size_t i = 0; i < bare.map.texels.size(); i += 3) {
-    if (std::memcmp(&bare.map.texels[i], &many.map.texels[i], 3 * sizeof(float)) == 0) continue;
+    if (test::same_texel(bare.map, many.map, i)) continue;
     EXPECT_EQ(bare.map.texels[i], 0.5f);
     EXPECT_EQ(bare.map.texels[i + 2], 1.0f);
     ++changed;

@@ -28,7 +28,8 @@ TEST(RoundTrip, OfARealModelsOwnMap) {
   std::vector<int> hits(static_cast<std::size_t>(source.width) * static_cast<std::size_t>(source.height), 0);
   for (const raster::Surface& surface : surfaces)
     for (std::uint32_t t = 0; t < surface.mesh->triangles.size(); ++t) {
-      const raster::TrianglePlanes planes = raster::Projection::texture(0, source.width, source.height).planes(surface, t);
+      const raster::TrianglePlanes planes =
+          raster::Projection::texture(0, source.width, source.height).planes(surface, t);
       double low[] = {1e9, 1e9};
       double high[] = {-1e9, -1e9};
       for (const std::uint32_t v : surface.mesh->triangles[t]) {

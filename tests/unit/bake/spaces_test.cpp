@@ -87,13 +87,15 @@ TEST(Spaces, TheTangentSpaceMapDecodesToTheWorldSpaceMap) {
   ASSERT_EQ(tangent.singular, 0);
   const std::vector<raster::Surface> surfaces{
       raster::place_mesh(scene.meshes[0], scene.objects[0].world_from_object, {0, 0, 0}, {{0, true}})};
-  const raster::VisibilityBuffer layout = raster::see(surfaces, raster::Projection::texture(0, size, size), size, size);
+  const raster::VisibilityBuffer layout =
+      raster::see(surfaces, raster::Projection::texture(0, size, size), size, size);
   Worst worst("decoded tangent-space map against the world-space one");
   std::int64_t steep = 0;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const auto t = layout.at(x, y).triangle;
-      const auto f = raster::make_fragment(surfaces[0], t, raster::Projection::texture(0, size, size).planes(surfaces[0], t),
+      const auto f = raster::make_fragment(surfaces[0], t,
+                                           raster::Projection::texture(0, size, size).planes(surfaces[0], t),
                                            x + 0.5, y + 0.5);
       const auto& uv = f.uvs[0];
       const vec3<double> m = vector_at(tangent.map, x, y);

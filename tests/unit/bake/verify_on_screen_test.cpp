@@ -100,7 +100,7 @@ TEST(VerifyOnScreen, TellsHowFarAMapIsOff) {
   EXPECT_NEAR(got.texels.mean_deg, expected, 0.04 * expected);
   // No direction at all is as wrong as can be.
   image::Image grey = image::make_image(64, 64, 3, image::Depth::float32);
-  std::fill(grey.texels.begin(), grey.texels.end(), 0.5f);
+  std::fill(grey.texels.floats().begin(), grey.texels.floats().end(), 0.5f);
   EXPECT_EQ(verify(scene, options, grey).texels.mean_deg, 180);
 }
 
