@@ -14,6 +14,7 @@ TITLES = {
     "compose": "Composition",
     "sampler": "Texture sampling",
     "bake": "Baking",
+    "blender": "Baked models in Blender",
     "tangents": "Tangents",
     "render": "Rendering",
     "growth": "Growth",
