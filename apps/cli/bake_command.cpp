@@ -5,6 +5,7 @@
 #include "gltf_output.hpp"
 #include "io/extension.hpp"
 #include "io/image_file.hpp"
+#include "lost_detail_output.hpp"
 #include "options.hpp"
 
 #include <surfgrad/derivative.hpp>
@@ -29,6 +30,7 @@ struct BakeCommand {
   std::optional<bool> dither;
   bool verify = false;
   GltfOutput gltf;
+  LostDetailOutput lost_detail;
 };
 
 void warn_about(const bake::Counts& baked, const bake::Options& job, Console& console) {
@@ -156,22 +158,26 @@ void run(BakeCommand& command) {
   bake::Options job = job_of(command, depth);
   check_output(output, depth);
   command.gltf.check(job, output);
+  command.lost_detail.check(job, output);
   if (command.verify || job.fill) check_memory({job.width, job.height}); // they hold the map
   Console console("baking", command.common.quiet);
   const ChosenDevice device(command.common.device);
   job.backend = device.backend();
   on_threads(command.common.threads, [&] {
     scene::Scene scene = open_scene(command.common, console.report());
+    check_is_no_input(scene, output, "--output");
     command.gltf.check(scene);
+    command.lost_detail.check(scene, job, output);
     const int channels = job.encoding == bake::Encoding::rgb || job.full_blue ? 3 : 2;
     OutputFile file(output, {job.width, job.height, channels}, depth, command.common.compression);
     const auto write = [&](const image::Image& band) { file.write(band); };
     // Images leave a scene that is handed over; one that is verified or written is still needed.
-    const bool is_kept = command.verify || command.gltf.is_wanted();
+    const bool is_kept = command.verify || command.gltf.is_wanted() || command.lost_detail.is_wanted();
     const bake::Counts baked =
         bake::bake_bands(is_kept ? scene : std::move(scene), job, write, console.report());
     file.commit();
-    command.gltf.write(scene, job, baked, output, command.common.quiet);
+    command.lost_detail.write(scene, job, output, command.common.compression, command.common.quiet);
+    command.gltf.write(scene, job, baked, {output, command.lost_detail.roughness()}, command.common.quiet);
     std::optional<bake::Verification> verified;
     if (command.verify) {
       Console verifying("verifying", command.common.quiet);
@@ -189,6 +195,8 @@ void run(BakeCommand& command) {
         summary.update(
             {{"verified", summary_of(verified->texels, "texels", job.height)},
              {"verified_on_screen", summary_of(verified->on_screen, "pixels", bake::screen_side)}});
+      for (const std::filesystem::path& written : command.lost_detail.files())
+        summary["lost_detail"].push_back(written.string());
       if (command.gltf.is_wanted()) summary["gltf"] = command.gltf.file().string();
       console.say_json(summary);
       return;
@@ -196,6 +204,8 @@ void run(BakeCommand& command) {
     warn_about(baked, job, console);
     console.say(fmt::format("wrote {} ({}x{}, {} texels covered)", output.string(), job.width, job.height,
                             baked.covered));
+    for (const std::filesystem::path& written : command.lost_detail.files())
+      console.say(fmt::format("wrote {}", written.string()));
     if (command.gltf.is_wanted()) console.say(fmt::format("wrote {}", command.gltf.file().string()));
     if (verified) say_verified(*verified, job, console);
     say_filtered(filtered, console);
@@ -249,6 +259,7 @@ void add_bake_command(CLI::App& program) {
               "  surfgrad bake pirate.json -o pirate_n.png --size 2048\n"
               "  surfgrad bake pirate.json -o pirate_n.png --depth 8 --green down --verify\n"
               "  surfgrad bake pirate.json -o pirate_n.png --gltf pirate.glb\n"
+              "  surfgrad bake pirate.json -o pirate_n.png --samples 4 --roughness pirate_r.png\n"
               "  surfgrad bake pirate.json -o pirate_o.exr --space object");
   add_common_options(verb, command->common, "16");
   verb.add_option("--uv", command->job.uv_set, "UV set that the map is laid out in")
@@ -277,6 +288,7 @@ void add_bake_command(CLI::App& program) {
       "--verify", command->verify,
       "decode the written map as an engine does and print how far its normals are from the stack's:\n"
       "at the baked points, and filtered in a picture from the scene's camera");
+  command->lost_detail.add_options(verb);
   command->gltf.add_option(verb);
   verb.callback([command] { run(*command); });
 }

@@ -33,12 +33,15 @@ void GltfOutput::check(const scene::Scene& scene) const {
 }
 
 void GltfOutput::write(const scene::Scene& scene, const bake::Options& job, const bake::Counts& baked,
-                       const std::filesystem::path& map, bool quiet) const {
+                       const Maps& maps, bool quiet) const {
   if (!is_wanted()) return;
   Console console("writing the model", quiet);
-  const std::vector<std::byte> glb = bake::encode_model_with_maps(
-      scene, {.uv_set = job.uv_set, .normal_png = io::read_file(map), .is_repeated = baked.outside > 0},
-      console.report());
+  const std::vector<std::byte> glb = bake::encode_model_with_maps(scene,
+                                                                  {.uv_set = job.uv_set,
+                                                                   .normal_png = io::read_file(maps.normal),
+                                                                   .roughness = maps.roughness,
+                                                                   .is_repeated = baked.outside > 0},
+                                                                  console.report());
   const Unbroken whole_file;
   stop_if_interrupted();
   io::write_file(file_, glb);

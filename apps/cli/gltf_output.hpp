@@ -23,9 +23,14 @@ class GltfOutput {
   void check(const bake::Options& job, const std::filesystem::path& map) const;
   /// Refuses to replace a file of the scene.
   void check(const scene::Scene& scene) const;
+  /// What goes into the model.
+  struct Maps {
+    std::filesystem::path normal;    ///< written
+    const image::Image* roughness{}; ///< null: materials keep theirs
+  };
   /// After the map was written.
-  void write(const scene::Scene& scene, const bake::Options& job, const bake::Counts& baked,
-             const std::filesystem::path& map, bool quiet) const;
+  void write(const scene::Scene& scene, const bake::Options& job, const bake::Counts& baked, const Maps& maps,
+             bool quiet) const;
 
  private:
   std::filesystem::path file_{};

@@ -6,6 +6,7 @@
 #include "bake/format.hpp"
 #include "bake/padding.hpp"
 #include "bake/sample_means.hpp"
+#include "bake/slope_statistics.hpp"
 #include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
 #include "simd/lane.hpp"
@@ -76,8 +77,11 @@ void require_something_inside(const std::vector<raster::Surface>& surfaces, std:
 /// Bakes rows of tiles.
 class Bands {
  public:
-  Bands(const stage::Stage& stage, const Options& options, const Format& format)
-      : scene_(stage.scene()), options_(options), format_(format), flat_(format.flat()),
+  /// format  of the texels; null: a band holds the sums of slope_statistics, three channels of six beside
+  /// each other
+  Bands(const stage::Stage& stage, const Options& options, const Format* format)
+      : scene_(stage.scene()), options_(options), format_(format),
+        empty_(format != nullptr ? format->flat() : std::vector<float>(6)),
         slot_(stage.slot_of(options.uv_set)),
         tile_side_(options.samples * std::max(1, stage::tile_side_of(options.backend) / options.samples)),
         projection_(raster::Projection::texture(slot_, options.width * options.samples,
@@ -89,7 +93,7 @@ class Bands {
   [[nodiscard]] int count() const { return composer_.grid().rows(); }
   void make(int row, image::Image& band, const stage::GoOn& go_on) {
     const raster::Tile first = composer_.grid().tile(0, row);
-    stage::reshape(band, options_.width, first.height / options_.samples, format_.channels());
+    stage::reshape(band, options_.width, first.height / options_.samples, static_cast<int>(empty_.size()));
     composer_.compose_row(row, [&](const stage::ComposedTile& tile) {
       go_on();
       encode(tile, band);
@@ -151,30 +155,44 @@ class Bands {
     }
     float* const first = &band.texels[band.index(tile.x / options_.samples, 0)];
     const auto put = [&](std::size_t texel, vec3<float> normal) {
-      const Format::Encoded encoded = format_.encode(normal, first + own.texel_of[texel]);
+      const Format::Encoded encoded = format_->encode(normal, first + own.texel_of[texel]);
       ++own.counts.covered;
       own.counts.beyond_range += encoded.clamped ? 1 : 0;
       own.counts.steepest = std::max<double>(own.counts.steepest, encoded.steepest);
     };
-    if (composed.count < tile.width * tile.height)
-      for (const std::size_t texel : own.texel_of) {
-        first[texel] = flat_[0]; // two or three values: a call to copy them costs more
-        first[texel + 1] = flat_[1];
-        if (format_.channels() == 3) first[texel + 2] = flat_[2];
-        if (options_.padding > 0 || options_.fill) first[texel] = uncovered;
-      }
     const auto normal = [&](int i) {
       return vec3<float>{work.normal.x[i], work.normal.y[i], work.normal.z[i]};
     };
+    const auto average = [&] {
+      own.means.start(options_.space, options_.samples, width, height);
+      for (int i = 0; i < composed.count; ++i)
+        own.means.add(composed.pixel[i], normal(i), work.singular[i] != 0);
+    };
+    if (format_ == nullptr) {
+      average();
+      for (std::size_t texel = 0; texel < own.texel_of.size(); ++texel)
+        put_sums(own.means.sum(texel), own.means.squares(texel), first + own.texel_of[texel]);
+      return;
+    }
+    if (composed.count < tile.width * tile.height)
+      for (const std::size_t texel : own.texel_of) {
+        first[texel] = empty_[0]; // two or three values: a call to copy them costs more
+        first[texel + 1] = empty_[1];
+        if (empty_.size() == 3) first[texel + 2] = empty_[2];
+        if (options_.padding > 0 || options_.fill) first[texel] = uncovered;
+      }
     if (options_.samples == 1) {
       for (int i = 0; i < composed.count; ++i) put(static_cast<std::size_t>(composed.pixel[i]), normal(i));
       return;
     }
-    own.means.start(options_.space, options_.samples, width, height);
-    for (int i = 0; i < composed.count; ++i)
-      own.means.add(composed.pixel[i], normal(i), work.singular[i] != 0);
+    average();
     for (std::size_t texel = 0; texel < own.texel_of.size(); ++texel)
       if (own.means.covered(texel)) put(texel, own.means.mean(texel));
+  }
+
+  static void put_sums(vec3<double> sum, vec3<double> squares, float* texel) {
+    for (const double value : {sum.x, sum.y, sum.z, squares.x, squares.y, squares.z})
+      *texel++ = static_cast<float>(value);
   }
 
   static void count_samples(const stage::ComposedTile& composed, const EncodeWork& work, Counts& counts) {
@@ -193,8 +211,8 @@ class Bands {
 
   const scene::Scene& scene_;
   const Options& options_;
-  const Format& format_;
-  std::vector<float> flat_;
+  const Format* format_;
+  std::vector<float> empty_; ///< what a texel begins as
   std::size_t slot_;
   int tile_side_;
   raster::Projection projection_;
@@ -214,18 +232,47 @@ void refuse_layers_that_need_a_viewer(const scene::Scene& scene) {
                           .remedy = "leave it out, or give the heights to a layer of type \"height_map\""});
 }
 
+/// The scene made ready.
+stage::Stage stage_of(scene::Scene scene, const Options& options, const Report& report) {
+  refuse_layers_that_need_a_viewer(scene);
+  if (auto displaced = displace::displaced(scene, report.at_the_start())) scene = std::move(displaced->scene);
+  return {std::move(scene), {}, {{options.uv_set, options.space == Space::tangent}}, report, options.backend};
+}
+
 } // namespace
+
+SlopeStatistics slope_statistics(scene::Scene scene, const Options& asked, const Report& report) {
+  Options options = asked;
+  options.space = Space::tangent;
+  const stage::Stage stage = stage_of(std::move(scene), options, report);
+  require_something_inside(stage.surfaces(), stage.slot_of(options.uv_set), options.uv_set,
+                           stage.scene().source);
+  Bands bands(stage, options, nullptr);
+  image::Image means = image::make_image(options.width, options.height, 3, image::Depth::float32);
+  image::Image squares = means;
+  int rows_left = options.height;
+  stage::for_each_band(
+      bands.count(), report,
+      [&](int row, image::Image& band, const stage::GoOn& go_on) { bands.make(row, band, go_on); },
+      [&](const image::Image& band) {
+        rows_left -= band.height;
+        for (int y = 0; y < band.height; ++y)
+          for (int x = 0; x < band.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+              means.at(x, rows_left + y, c) = band.at(x, y, c);
+              squares.at(x, rows_left + y, c) = band.at(x, y, c + 3);
+            }
+      });
+  return SlopeStatistics(means, squares);
+}
 
 Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                   const Report& report) {
   const Format format(options);
-  refuse_layers_that_need_a_viewer(scene);
-  if (auto displaced = displace::displaced(scene, report.at_the_start())) scene = std::move(displaced->scene);
-  const stage::Stage stage(std::move(scene), {}, {{options.uv_set, options.space == Space::tangent}}, report,
-                           options.backend);
+  const stage::Stage stage = stage_of(std::move(scene), options, report);
   const std::size_t slot = stage.slot_of(options.uv_set);
   require_something_inside(stage.surfaces(), slot, options.uv_set, stage.scene().source);
-  Bands bands(stage, options, format);
+  Bands bands(stage, options, &format);
   // From the maker over the padding and the dither to the taker.
   stage::BandSink sink = take;
   std::optional<Dither> dither;

@@ -101,9 +101,9 @@ void Padding::fill(int from_top, float* texels) {
     const float* value = found ? row(nearest_[static_cast<std::size_t>(from)]).texels.data() +
                                      static_cast<std::size_t>(from) * channels
                                : empty_.data();
-    texel[0] = value[0]; // two or three values: a call to copy them costs more
-    texel[1] = value[1];
-    if (channels == 3) texel[2] = value[2];
+    texel[0] = value[0]; // one to three values: a call to copy them costs more
+    if (channels > 1) texel[1] = value[1];
+    if (channels > 2) texel[2] = value[2];
     padded_ += found ? 1 : 0;
   }
 }

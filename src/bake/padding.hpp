@@ -23,7 +23,7 @@ class Padding {
  public:
   /// width, height  of the whole map
   /// reach          in texels, farther ones stay empty
-  /// empty          value of texels that nothing is near to, one number for each of two or three channels
+  /// empty          value of texels that nothing is near to, one number for each of one to three channels
   Padding(int width, int height, int reach, std::vector<float> empty, stage::BandSink take);
 
   /// The next rows from the top downwards. Bands that are ready go to the sink, the last with the last row.

@@ -9,7 +9,7 @@
 
 namespace surfgrad::bake {
 
-/// Means of the samples of each texel of a tile.
+/// Sums over the samples of each texel of a tile, and their means.
 class SampleMeans {
  public:
   /// samples        along a side of a texel
@@ -31,8 +31,17 @@ class SampleMeans {
     t.covered = true;
     if (singular) return;
     const vec3<double> n{normal.x, normal.y, normal.z};
-    t.sum = t.sum + (slopes_ ? vec3<double>{n.x / n.z, n.y / n.z, 1.0} : n);
+    if (!slopes_) {
+      t.sum = t.sum + n;
+      return;
+    }
+    const vec2<double> slope{n.x / n.z, n.y / n.z};
+    t.sum = t.sum + vec3<double>{slope.x, slope.y, 1.0};
+    t.squares = t.squares + vec3<double>{slope.x * slope.x, slope.y * slope.y, slope.x * slope.y};
   }
+  /// In tangent space: slopes (n.x / n.z, n.y / n.z) and how many there are; their squares and product.
+  [[nodiscard]] vec3<double> sum(std::size_t texel) const { return texels_[texel].sum; }
+  [[nodiscard]] vec3<double> squares(std::size_t texel) const { return texels_[texel].squares; }
   [[nodiscard]] bool covered(std::size_t texel) const { return texels_[texel].covered; }
   /// Unit. (0, 0, 1) where all samples are singular or cancel out.
   [[nodiscard]] vec3<float> mean(std::size_t texel) const {
@@ -44,6 +53,7 @@ class SampleMeans {
  private:
   struct Texel {
     vec3<double> sum{0, 0, 0};
+    vec3<double> squares{0, 0, 0};
     bool covered = false;
   };
   bool slopes_ = true;

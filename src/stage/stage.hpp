@@ -33,6 +33,9 @@ class Stage {
   Stage(scene::Scene scene, const View& view, const std::vector<raster::UvSlot>& needed, const Report& report,
         const Backend* backend = nullptr);
 
+  Stage(const Stage&) = delete; // what is made ready points into the scene
+  Stage& operator=(const Stage&) = delete;
+
   /// The scene without its images.
   [[nodiscard]] const scene::Scene& scene() const { return scene_; }
   /// One a scene object, in the same order.

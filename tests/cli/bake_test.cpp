@@ -200,5 +200,72 @@ TEST(Bake, OptionsThatContradictEachOtherAreUsageErrors) {
   EXPECT_THAT(folder.files(), IsEmpty());
 }
 
+TEST(BakeLostDetail, WritesLevelsOfTheMapAndOfItsRoughness) {
+  const Folder folder;
+  write_quad(folder, normal_map);
+  const auto summary = bake(folder, {"-o", "o.png", "--samples", "2", "--roughness", "r.png", "--anisotropy",
+                                     "a.png", "--base-roughness", "0.2", "--mips", "--gltf", "m.glb"});
+  EXPECT_EQ(summary["lost_detail"].size(), 5u + 2 * 6); // 32 texels have 5 levels below theirs
+  double before = 0.2; // the base
+  for (int level = 0; level < 6; ++level) {
+    const std::string suffix = level == 0 ? ".png" : "_mip" + std::to_string(level) + ".png";
+    const image::Image normals = io::read_image(folder.path() / ("o" + suffix));
+    const image::Image roughness = io::read_image(folder.path() / ("r" + suffix));
+    const image::Image anisotropy = io::read_image(folder.path() / ("a" + suffix));
+    EXPECT_EQ(normals.width, 32 >> level);
+    EXPECT_EQ(normals.depth, image::Depth::unorm16);
+    EXPECT_EQ(roughness.width, 32 >> level);
+    EXPECT_EQ(roughness.channels, 1);
+    EXPECT_EQ(anisotropy.channels, 3);
+    double mean = 0;
+    const int covered = std::max(1, 16 >> level);
+    for (int y = 0; y < covered; ++y)
+      for (int x = 0; x < covered; ++x) mean += double{roughness.at(x, y, 0)} / (covered * covered);
+    EXPECT_GE(mean, before) << level; // coarser levels lose more
+    before = mean;
+  }
+  EXPECT_GT(before, 0.4);
+  const Outcome run = run_program({"render", "m.glb", "-o", "p.png", "--size", "16"}, folder.path());
+  EXPECT_EQ(run.status, 0) << run.error;
+}
+
+TEST(BakeLostDetail, RefusesWhatCannotBeMeantBeforeAnythingIsWritten) {
+  const Folder folder;
+  write_quad(folder, normal_map);
+  struct Case {
+    std::vector<std::string> options;
+    int status;
+    const char* said;
+  };
+  const Case cases[] = {
+      {{"--roughness", "r.png"}, 2, "--samples 2 or more"},
+      {{"--anisotropy", "a.png", "--samples", "2"}, 2, "goes with --roughness"},
+      {{"--roughness", "r.png", "--samples", "2", "--space", "world"}, 2, "--space tangent"},
+      {{"--roughness", "r.png", "--samples", "2", "--base-roughness", "1.5"}, 2, "from 0 to 1"},
+      {{"--roughness", "r.png", "--samples", "2", "--base-roughness", "gone.png"}, 1, "gone.png"},
+      {{"--roughness", "o.png", "--samples", "2"}, 2, "written twice"},
+      {{"--roughness", "n.png", "--samples", "2"}, 1, "would replace a file of the scene"},
+      {{"--roughness", "no/r.png", "--samples", "2"}, 1, "no"},
+      {{"--roughness", "r.jpg", "--samples", "2"}, 1, "r.jpg"},
+  };
+  for (const Case& c : cases) {
+    std::vector<std::string> arguments{"bake", "s.json", "--size", "32", "-o", "o.png"};
+    arguments.insert(arguments.end(), c.options.begin(), c.options.end());
+    const Outcome run = run_program(arguments, folder.path());
+    EXPECT_EQ(run.status, c.status) << c.said << ": " << run.error;
+    EXPECT_THAT(run.error, HasSubstr(c.said));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "o.png")) << c.said;
+  }
+}
+
+TEST(Bake, NeverReplacesAFileOfTheScene) {
+  const Folder folder;
+  write_quad(folder, normal_map);
+  const Outcome run = run_program({"bake", "s.json", "--size", "32", "-o", "n.png"}, folder.path());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.error, HasSubstr("would replace a file of the scene"));
+  EXPECT_EQ(io::read_image(folder.path() / "n.png").width, 8);
+}
+
 } // namespace
 } // namespace surfgrad

@@ -1,0 +1,123 @@
+#include "lost_detail_output.hpp"
+
+#include "bake/roughness.hpp"
+#include "bake/slope_statistics.hpp"
+#include "console.hpp"
+#include "interrupt.hpp"
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+
+namespace surfgrad::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file of a mip level: rock_n.png, rock_n_mip1.png ...
+fs::path file_of_level(const fs::path& file, int level) {
+  if (level == 0) return file;
+  fs::path name = file.stem();
+  name += fmt::format("_mip{}", level);
+  name += file.extension();
+  return file.parent_path() / name;
+}
+
+/// A number within [0, 1], else a file.
+bake::BaseRoughness base_of(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return bake::BaseRoughness(value);
+  return bake::BaseRoughness(io::read_image(text));
+}
+
+image::Depth depth_of(const fs::path& file) { return depth_for(file, "", image::Depth::unorm8); }
+
+} // namespace
+
+void LostDetailOutput::add_options(CLI::App& verb) {
+  verb.add_option("--roughness", roughness_,
+                  "also write the roughness that the detail lost within each texel amounts to, on top of\n"
+                  "--base-roughness; wants --samples of 2 or more, or --mips")
+      ->check(not_empty())
+      ->type_name("FILE");
+  verb.add_option(
+          "--anisotropy", anisotropy_,
+          "also write its direction and strength as KHR_materials_anisotropy has them; --roughness is\n"
+          "then that across the direction")
+      ->check(not_empty())
+      ->type_name("FILE");
+  verb.add_option(
+          "--base-roughness", base_,
+          "roughness of the surface between the bumps: a number from 0 to 1, or a map over the UV set\n"
+          "(the green channel of three, as in glTF, else the first)")
+      ->capture_default_str()
+      ->type_name("VALUE|FILE");
+  verb.add_flag(
+      "--mips", is_mips_wanted_,
+      "also write the mip levels of the map and of the roughness: NAME_mip1.png and so on, of mean\n"
+      "slopes, with the detail that each level loses in its roughness");
+}
+
+void LostDetailOutput::check(const bake::Options& job, const fs::path& map) const {
+  if (!anisotropy_.empty() && roughness_.empty())
+    throw CLI::ValidationError("--anisotropy", "goes with --roughness, which holds the rest of it");
+  double value = 0;
+  const auto [end, error] = std::from_chars(base_.data(), base_.data() + base_.size(), value);
+  if (error == std::errc() && end == base_.data() + base_.size() && !(value >= 0 && value <= 1))
+    throw CLI::ValidationError("--base-roughness", "must be a number from 0 to 1, or a file");
+  if (!is_wanted()) return;
+  if (job.space != bake::Space::tangent)
+    throw CLI::ValidationError(is_mips_wanted_ ? "--mips" : "--roughness", "is for --space tangent");
+  if (!roughness_.empty() && job.samples == 1 && !is_mips_wanted_)
+    throw CLI::ValidationError("--roughness", "is what the samples of a texel differ by: give --samples 2 or "
+                                              "more, or --mips");
+  for (const fs::path& file : {roughness_, anisotropy_}) {
+    if (file.empty()) continue;
+    if (file == map || (file == anisotropy_ && file == roughness_))
+      throw CLI::ValidationError("--roughness", fmt::format("\"{}\" is written twice", file.string()));
+    check_output(file, depth_of(file));
+  }
+  check_memory({6 * job.width, job.height}); // 56 bytes a texel, where a picture has 12
+}
+
+void LostDetailOutput::check(const scene::Scene& scene, const bake::Options& job, const fs::path& map) {
+  if (!is_wanted()) return;
+  base_read_ = base_of(base_);
+  const int levels =
+      is_mips_wanted_ ? std::bit_width(static_cast<unsigned>(std::max(job.width, job.height))) : 1;
+  for (int level = 0; level < levels; ++level) {
+    if (level > 0) check_is_no_input(scene, file_of_level(map, level), "--mips");
+    if (!roughness_.empty()) check_is_no_input(scene, file_of_level(roughness_, level), "--roughness");
+    if (!anisotropy_.empty()) check_is_no_input(scene, file_of_level(anisotropy_, level), "--anisotropy");
+  }
+}
+
+void LostDetailOutput::write(const scene::Scene& scene, const bake::Options& job, const fs::path& map,
+                             io::Compression compression, bool quiet) {
+  if (!is_wanted()) return;
+  Console console("measuring detail", quiet);
+  const bake::SlopeStatistics slopes = bake::slope_statistics(scene, job, {console.report().progress, {}});
+  const auto write = [&](const fs::path& file, const image::Image& picture, image::Depth depth) {
+    const Unbroken whole_file;
+    stop_if_interrupted();
+    io::write_image(file, picture, depth, compression);
+    files_.push_back(file);
+  };
+  const int levels = is_mips_wanted_ ? slopes.level_count() : 1;
+  for (int level = 0; level < levels; ++level) {
+    if (level > 0) write(file_of_level(map, level), bake::normal_level(slopes, level, job), job.depth);
+    if (roughness_.empty()) continue;
+    image::Image roughness = bake::roughness_map(slopes, level, *base_read_, job, !anisotropy_.empty());
+    write(file_of_level(roughness_, level), roughness, depth_of(roughness_));
+    if (level == 0) written_ = std::move(roughness);
+    if (anisotropy_.empty()) continue;
+    write(file_of_level(anisotropy_, level), bake::anisotropy_map(slopes, level, *base_read_, job),
+          depth_of(anisotropy_));
+  }
+}
+
+} // namespace surfgrad::cli

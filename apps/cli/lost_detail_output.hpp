@@ -1,0 +1,50 @@
+#pragma once
+
+#include "bake/bake.hpp"
+#include "bake/roughness.hpp"
+#include "image/image.hpp"
+#include "io/image_file.hpp"
+#include "scene/scene.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace surfgrad::cli {
+
+/// What `bake --roughness`, `--anisotropy` and `--mips` write: the detail that a texel or a mip level cannot
+/// show. Does nothing where none is asked for.
+class LostDetailOutput {
+ public:
+  void add_options(CLI::App& verb);
+
+  [[nodiscard]] bool is_wanted() const { return !roughness_.empty() || is_mips_wanted_; }
+
+  /// Before long work. Throws CLI::ValidationError where the options contradict each other or the job's,
+  /// InputError where a file cannot be written.
+  void check(const bake::Options& job, const std::filesystem::path& map) const;
+  /// Reads the base roughness, and refuses to replace a file of the scene.
+  void check(const scene::Scene& scene, const bake::Options& job, const std::filesystem::path& map);
+  /// After the map was written; it names the files of its levels.
+  void write(const scene::Scene& scene, const bake::Options& job, const std::filesystem::path& map,
+             io::Compression compression, bool quiet);
+
+  /// Of level 0; null where no roughness is asked for.
+  [[nodiscard]] const image::Image* roughness() const { return written_ ? &*written_ : nullptr; }
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
+ private:
+  std::filesystem::path roughness_{};
+  std::filesystem::path anisotropy_{};
+  std::string base_ = "0.5";
+  bool is_mips_wanted_ = false;
+  std::optional<bake::BaseRoughness> base_read_{};
+  std::optional<image::Image> written_{};
+  std::vector<std::filesystem::path> files_{}; ///< in the order in which they were written
+};
+
+} // namespace surfgrad::cli

@@ -1,0 +1,121 @@
+#include "bake/roughness.hpp"
+
+#include "bake/dither.hpp"
+#include "bake/fill.hpp"
+#include "bake/format.hpp"
+#include "bake/padding.hpp"
+#include "image/sampler.hpp"
+#include "stage/bands.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace surfgrad::bake {
+namespace {
+
+/// Fills what is uncovered, and dithers.
+image::Image finished(const image::Image& picture, const Options& options, const std::vector<float>& empty,
+                      bool dithered) {
+  image::Image result = image::make_image(picture.width, picture.height, picture.channels, options.depth);
+  stage::BandSink sink = stage::into(result);
+  std::optional<Dither> dither;
+  if (dithered) {
+    dither.emplace(picture.height, empty, sink);
+    sink = [&](const image::Image& band) { dither->add(band); };
+  }
+  if (options.fill)
+    Fill(picture.width, picture.height, empty, sink).add(picture);
+  else
+    Padding(picture.width, picture.height, options.padding, empty, sink).add(picture);
+  return result;
+}
+
+/// A picture of a level: made(moments, x, y, where the texel's channels go) where a surface lies.
+template <class Made>
+image::Image picture_of(const SlopeStatistics& slopes, int level, int channels, const Made& made) {
+  image::Image picture = image::make_image(slopes.width(level), slopes.height(level), channels);
+  float* const texels = picture.texels.floats().data();
+  tbb::parallel_for(0, picture.height, [&](int y) {
+    for (int x = 0; x < picture.width; ++x) {
+      float* texel = texels + picture.index(x, y);
+      if (slopes.covered(level, x, y))
+        made(slopes.moments(level, x, y), x, y, texel);
+      else
+        std::fill_n(texel, channels, uncovered);
+    }
+  });
+  return picture;
+}
+
+} // namespace
+
+BaseRoughness::BaseRoughness(const image::Image& map) {
+  const int colors = map.has_alpha ? map.channels - 1 : map.channels;
+  image::Image alphas = image::make_image(map.width, map.height, 1, image::Depth::float32);
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      const float roughness = map.at(x, y, colors >= 3 ? 1 : 0);
+      alphas.at(x, y, 0) = roughness * roughness;
+    }
+  alphas_ = image::make_channel_map(alphas, 0);
+}
+
+double BaseRoughness::alpha(int x, int y, int width, int height) const {
+  if (alphas_.level_count == 0) return value_ * value_;
+  const double texels =
+      std::max(static_cast<double>(alphas_.width()) / width, static_cast<double>(alphas_.height()) / height);
+  const vec2<double> st{(x + 0.5) / width, (y + 0.5) / height};
+  return image::sample<1, double>(alphas_, st, std::log2(texels), {}, image::Filter::trilinear, true)[0];
+}
+
+Lobe widened(double alpha, const SlopeMoments<double>& m) {
+  const double var_s = std::max(m.square.x - m.mean.x * m.mean.x, 0.0);
+  const double var_t = std::max(m.square.y - m.mean.y * m.mean.y, 0.0);
+  const double covariance = m.product - m.mean.x * m.mean.y;
+  // Eigenvalues of the covariance, and the direction of the larger one.
+  const double middle = 0.5 * (var_s + var_t);
+  const double spread = std::hypot(0.5 * (var_s - var_t), covariance);
+  const double angle = spread > 0 ? 0.5 * std::atan2(covariance, 0.5 * (var_s - var_t)) : 0;
+  const auto alpha_with = [&](double variance) {
+    return std::min(std::sqrt(alpha * alpha + 2 * std::max(variance, 0.0)), 1.0);
+  };
+  return {alpha_with(middle + spread), alpha_with(middle - spread), {std::cos(angle), std::sin(angle)}};
+}
+
+image::Image roughness_map(const SlopeStatistics& slopes, int level, const BaseRoughness& base,
+                           const Options& options, bool is_anisotropic) {
+  const auto roughness = [&](const SlopeMoments<double>& moments, int x, int y, float* texel) {
+    const double alpha = base.alpha(x, y, slopes.width(level), slopes.height(level));
+    *texel = static_cast<float>(std::sqrt(is_anisotropic ? widened(alpha, moments).alpha_across
+                                                         : roughness_from_moments(alpha, moments)));
+  };
+  return finished(picture_of(slopes, level, 1, roughness), options, {1.0f}, false);
+}
+
+image::Image anisotropy_map(const SlopeStatistics& slopes, int level, const BaseRoughness& base,
+                            const Options& options) {
+  const auto anisotropy = [&](const SlopeMoments<double>& moments, int x, int y, float* texel) {
+    const Lobe lobe = widened(base.alpha(x, y, slopes.width(level), slopes.height(level)), moments);
+    const double room = 1 - lobe.alpha_across;
+    const double strength = room > 0 ? std::sqrt((lobe.alpha_along - lobe.alpha_across) / room) : 0;
+    texel[0] = static_cast<float>(0.5 * lobe.direction.x + 0.5);
+    texel[1] = static_cast<float>(0.5 * lobe.direction.y + 0.5);
+    texel[2] = static_cast<float>(strength);
+  };
+  return finished(picture_of(slopes, level, 3, anisotropy), options, {1.0f, 0.5f, 0.0f}, false);
+}
+
+image::Image normal_level(const SlopeStatistics& slopes, int level, const Options& options) {
+  const Format format(options);
+  const auto normal = [&](const SlopeMoments<double>& m, int /*x*/, int /*y*/, float* texel) {
+    const vec3<double> n = normalize_or_zero(vec3<double>{m.mean.x, m.mean.y, 1});
+    format.encode({static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}, texel);
+  };
+  return finished(picture_of(slopes, level, format.channels(), normal), options, format.flat(),
+                  options.dither);
+}
+
+} // namespace surfgrad::bake
