@@ -17,6 +17,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace surfgrad::cli {
 namespace {
@@ -152,63 +155,103 @@ void say_verified(const bake::Verification& verified, const bake::Options& job, 
     console.say(fmt::format("{} pixels that show nothing of the map are left out", screen.left_out));
 }
 
+constexpr std::string_view udim_mark = "<UDIM>";
+
+bool has_udim(const std::filesystem::path& output) {
+  return output.filename().string().find(udim_mark) != std::string::npos;
+}
+
+std::filesystem::path file_of_tile(const std::filesystem::path& output, const bake::UdimTile& tile) {
+  std::string name = output.filename().string();
+  name.replace(name.find(udim_mark), udim_mark.size(), std::to_string(tile.number()));
+  return output.parent_path() / name;
+}
+
+/// Bakes, verifies and tells of one map. Returns its summary where machines are told.
+nlohmann::json bake_map(BakeCommand& command, scene::Scene scene, const bake::Options& job,
+                        const std::filesystem::path& output, const ChosenDevice& device) {
+  Console console("baking", command.common.quiet);
+  const int channels = job.encoding == bake::Encoding::rgb || job.full_blue ? 3 : 2;
+  OutputFile file(output, {job.width, job.height, channels}, job.depth, command.common.compression);
+  const auto write = [&](const image::Image& band) { file.write(band); };
+  // Images leave a scene that is handed over; one that is verified or written is still needed.
+  const bool is_kept = command.verify || command.gltf.is_wanted() || command.lost_detail.is_wanted();
+  bake::Counts baked = bake::bake_bands(is_kept ? scene : std::move(scene), job, write, console.report());
+  if (has_udim(command.common.output)) baked.outside = 0; // it is in another tile
+  file.commit();
+  command.lost_detail.write(scene, job, output, command.common.compression, command.common.quiet);
+  command.gltf.write(scene, job, baked, {output, command.lost_detail.roughness()}, command.common.quiet);
+  std::optional<bake::Verification> verified;
+  if (command.verify) {
+    Console verifying("verifying", command.common.quiet);
+    verified = bake::verify(scene, job, io::read_image(output), verifying.report());
+  }
+  const ChosenDevice::Filtered filtered = device.filtered();
+  if (command.common.json) {
+    nlohmann::json summary = summary_of(baked, job);
+    summary.update({{"output", output.string()},
+                    {"device", device.name()},
+                    {"filter", filtered.filter},
+                    {"maps_sampled_by_hardware", filtered.sampled},
+                    {"filter_bound_deg", filtered.bound_deg}});
+    if (verified)
+      summary.update({{"verified", summary_of(verified->texels, "texels", job.height)},
+                      {"verified_on_screen", summary_of(verified->on_screen, "pixels", bake::screen_side)}});
+    for (const std::filesystem::path& written : command.lost_detail.files())
+      summary["lost_detail"].push_back(written.string());
+    if (command.gltf.is_wanted()) summary["gltf"] = command.gltf.file().string();
+    return summary;
+  }
+  warn_about(baked, job, console);
+  console.say(fmt::format("wrote {} ({}x{}, {} texels covered)", output.string(), job.width, job.height,
+                          baked.covered));
+  for (const std::filesystem::path& written : command.lost_detail.files())
+    console.say(fmt::format("wrote {}", written.string()));
+  if (command.gltf.is_wanted()) console.say(fmt::format("wrote {}", command.gltf.file().string()));
+  if (verified) say_verified(*verified, job, console);
+  say_filtered(filtered, console);
+  return {};
+}
+
+/// A map for each tile that the mesh lies in.
+nlohmann::json bake_tiles(BakeCommand& command, const scene::Scene& scene, bake::Options job,
+                          const std::filesystem::path& output, const ChosenDevice& device) {
+  const std::vector<bake::UdimTile> tiles = bake::udim_tiles(scene, job.uv_set);
+  for (const bake::UdimTile& tile : tiles) check_is_no_input(scene, file_of_tile(output, tile), "--output");
+  nlohmann::json summaries = nlohmann::json::array();
+  for (const bake::UdimTile& tile : tiles) {
+    job.tile = tile;
+    summaries.push_back(bake_map(command, scene, job, file_of_tile(output, tile), device));
+    summaries.back()["udim"] = tile.number();
+  }
+  return {{"tiles", summaries}};
+}
+
 void run(BakeCommand& command) {
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
-  bake::Options job = job_of(command, depth);
+  const bake::Options job = job_of(command, depth);
   check_output(output, depth);
   command.gltf.check(job, output);
   command.lost_detail.check(job, output);
+  const bool tiled = has_udim(output);
+  if (tiled && (command.gltf.is_wanted() || command.lost_detail.is_wanted()))
+    throw CLI::ValidationError("--output",
+                               "<UDIM> goes with the normal map alone: leave out --gltf, --roughness, "
+                               "--anisotropy and --mips");
   if (command.verify || job.fill) check_memory({job.width, job.height}); // they hold the map
-  Console console("baking", command.common.quiet);
   const ChosenDevice device(command.common.device);
-  job.backend = device.backend();
   on_threads(command.common.threads, [&] {
+    Console console("baking", command.common.quiet);
     scene::Scene scene = open_scene(command.common, console.report());
     check_is_no_input(scene, output, "--output");
     command.gltf.check(scene);
     command.lost_detail.check(scene, job, output);
-    const int channels = job.encoding == bake::Encoding::rgb || job.full_blue ? 3 : 2;
-    OutputFile file(output, {job.width, job.height, channels}, depth, command.common.compression);
-    const auto write = [&](const image::Image& band) { file.write(band); };
-    // Images leave a scene that is handed over; one that is verified or written is still needed.
-    const bool is_kept = command.verify || command.gltf.is_wanted() || command.lost_detail.is_wanted();
-    const bake::Counts baked =
-        bake::bake_bands(is_kept ? scene : std::move(scene), job, write, console.report());
-    file.commit();
-    command.lost_detail.write(scene, job, output, command.common.compression, command.common.quiet);
-    command.gltf.write(scene, job, baked, {output, command.lost_detail.roughness()}, command.common.quiet);
-    std::optional<bake::Verification> verified;
-    if (command.verify) {
-      Console verifying("verifying", command.common.quiet);
-      verified = bake::verify(scene, job, io::read_image(output), verifying.report());
-    }
-    const ChosenDevice::Filtered filtered = device.filtered();
-    if (command.common.json) {
-      nlohmann::json summary = summary_of(baked, job);
-      summary.update({{"output", output.string()},
-                      {"device", device.name()},
-                      {"filter", filtered.filter},
-                      {"maps_sampled_by_hardware", filtered.sampled},
-                      {"filter_bound_deg", filtered.bound_deg}});
-      if (verified)
-        summary.update(
-            {{"verified", summary_of(verified->texels, "texels", job.height)},
-             {"verified_on_screen", summary_of(verified->on_screen, "pixels", bake::screen_side)}});
-      for (const std::filesystem::path& written : command.lost_detail.files())
-        summary["lost_detail"].push_back(written.string());
-      if (command.gltf.is_wanted()) summary["gltf"] = command.gltf.file().string();
-      console.say_json(summary);
-      return;
-    }
-    warn_about(baked, job, console);
-    console.say(fmt::format("wrote {} ({}x{}, {} texels covered)", output.string(), job.width, job.height,
-                            baked.covered));
-    for (const std::filesystem::path& written : command.lost_detail.files())
-      console.say(fmt::format("wrote {}", written.string()));
-    if (command.gltf.is_wanted()) console.say(fmt::format("wrote {}", command.gltf.file().string()));
-    if (verified) say_verified(*verified, job, console);
-    say_filtered(filtered, console);
+    bake::Options on_device = job;
+    on_device.backend = device.backend();
+    const nlohmann::json summary = tiled ? bake_tiles(command, scene, on_device, output, device)
+                                         : bake_map(command, std::move(scene), on_device, output, device);
+    if (command.common.json) console.say_json(summary);
   });
 }
 
@@ -259,6 +302,7 @@ void add_bake_command(CLI::App& program) {
               "  surfgrad bake pirate.json -o pirate_n.png --size 2048\n"
               "  surfgrad bake pirate.json -o pirate_n.png --depth 8 --green down --verify\n"
               "  surfgrad bake pirate.json -o pirate_n.png --gltf pirate.glb\n"
+              "  surfgrad bake pirate.json -o pirate_n.<UDIM>.png     a map for each UDIM tile of the mesh\n"
               "  surfgrad bake pirate.json -o pirate_n.png --samples 4 --roughness pirate_r.png\n"
               "  surfgrad bake pirate.json -o pirate_o.exr --space object");
   add_common_options(verb, command->common, "16");

@@ -27,13 +27,19 @@
 namespace surfgrad::bake {
 namespace {
 
+/// Of the unit square that is baked.
+vec2<double> corner_of(const Options& options) {
+  return {static_cast<double>(options.tile.column), static_cast<double>(options.tile.row)};
+}
+
 /// Triangles that lie, wholly or in part, where the map does not reach.
-std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std::size_t slot) {
+std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std::size_t slot,
+                               vec2<double> corner) {
   std::int64_t count = 0;
   for (const raster::Surface& surface : surfaces)
     for (const auto& triangle : surface.mesh->triangles)
       count += std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
-        const vec2<double> st = surface.slots[slot].st[vertex];
+        const vec2<double> st = surface.slots[slot].st[vertex] - corner;
         return st.x < 0 || st.x > 1 || st.y < 0 || st.y > 1;
       });
   return count;
@@ -41,8 +47,10 @@ std::int64_t triangles_outside(const std::vector<raster::Surface>& surfaces, std
 
 /// A map covers the unit square: says where the texture coordinates are instead if none of a triangle is in
 /// it.
-void require_something_inside(const std::vector<raster::Surface>& surfaces, std::size_t slot, int uv_set,
-                              const std::filesystem::path& source) {
+void require_something_inside(const std::vector<raster::Surface>& surfaces, std::size_t slot,
+                              const Options& options, const std::filesystem::path& source) {
+  const vec2<double> corner = corner_of(options);
+  const int uv_set = options.uv_set;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   vec2<double> low{infinity, infinity};
   vec2<double> high{-infinity, -infinity};
@@ -55,7 +63,7 @@ void require_something_inside(const std::vector<raster::Surface>& surfaces, std:
         from = {std::min(from.x, st.x), std::min(from.y, st.y)};
         to = {std::max(to.x, st.x), std::max(to.y, st.y)};
       }
-      if (from.x < 1 && to.x > 0 && from.y < 1 && to.y > 0) return;
+      if (from.x < corner.x + 1 && to.x > corner.x && from.y < corner.y + 1 && to.y > corner.y) return;
       low = {std::min(low.x, from.x), std::min(low.y, from.y)};
       high = {std::max(high.x, to.x), std::max(high.y, to.y)};
     }
@@ -70,8 +78,11 @@ void require_something_inside(const std::vector<raster::Surface>& surfaces, std:
                   : fmt::format("UV set {} lies between ({:.4g}, {:.4g}) and ({:.4g}, {:.4g}), and no "
                                 "triangle reaches into the unit square that a map covers",
                                 uv_set, low.x, low.y, high.x, high.y),
-       .remedy = in_one ? fmt::format("move its coordinates by ({}, {})", 0 - square.x, 0 - square.y)
-                        : "lay it out within the unit square"});
+       .remedy = in_one
+                     ? fmt::format(
+                           "move its coordinates by ({}, {}), or bake UDIM tiles: <UDIM> in the file's name",
+                           0 - square.x, 0 - square.y)
+                     : "lay it out within the unit square, or bake UDIM tiles: <UDIM> in the file's name"});
 }
 
 /// Bakes rows of tiles.
@@ -85,7 +96,7 @@ class Bands {
         slot_(stage.slot_of(options.uv_set)),
         tile_side_(options.samples * std::max(1, stage::tile_side_of(options.backend) / options.samples)),
         projection_(raster::Projection::texture(slot_, options.width * options.samples,
-                                                options.height * options.samples)),
+                                                options.height * options.samples, corner_of(options))),
         composer_(stage, projection_, options.width * options.samples, options.height * options.samples,
                   tile_side_, tile_side_, {.vertex_frame = options.space == Space::tangent, .slot = slot_}),
         own_([this] { return Own(static_cast<std::size_t>(tile_side_)); }) {}
@@ -245,8 +256,7 @@ SlopeStatistics slope_statistics(scene::Scene scene, const Options& asked, const
   Options options = asked;
   options.space = Space::tangent;
   const stage::Stage stage = stage_of(std::move(scene), options, report);
-  require_something_inside(stage.surfaces(), stage.slot_of(options.uv_set), options.uv_set,
-                           stage.scene().source);
+  require_something_inside(stage.surfaces(), stage.slot_of(options.uv_set), options, stage.scene().source);
   Bands bands(stage, options, nullptr);
   image::Image means = image::make_image(options.width, options.height, 3, image::Depth::float32);
   image::Image squares = means;
@@ -271,7 +281,7 @@ Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandS
   const Format format(options);
   const stage::Stage stage = stage_of(std::move(scene), options, report);
   const std::size_t slot = stage.slot_of(options.uv_set);
-  require_something_inside(stage.surfaces(), slot, options.uv_set, stage.scene().source);
+  require_something_inside(stage.surfaces(), slot, options, stage.scene().source);
   Bands bands(stage, options, &format);
   // From the maker over the padding and the dither to the taker.
   stage::BandSink sink = take;
@@ -295,7 +305,7 @@ Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandS
   Counts counts = bands.counts();
   if (fill) counts.padded = fill->filled();
   if (padding) counts.padded = padding->padded();
-  counts.outside = triangles_outside(stage.surfaces(), slot);
+  counts.outside = triangles_outside(stage.surfaces(), slot, corner_of(options));
   if (counts.covered == 0)
     throw InputError(
         {.file = stage.scene().source,

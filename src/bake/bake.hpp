@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bake/udim.hpp"
 #include "diagnostic/report.hpp"
 #include "image/image.hpp"
 #include "scene/scene.hpp"
@@ -31,6 +32,7 @@ struct Options {
   Space space = Space::tangent;
   const stage::Backend* backend = nullptr; ///< composes in the engine's stead
   int uv_set = 0;
+  UdimTile tile{}; ///< unit square of the UV set that the map covers
   /// Samples along each side of a texel. Slopes are averaged, each sample's in its own frame; of object and
   /// world space the normals. A texel counts as covered where one of its samples is.
   int samples = 1;

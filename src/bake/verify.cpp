@@ -96,7 +96,9 @@ Deviation compare_texels(const scene::Scene& scene, const Options& options, cons
   const stage::Stage stage(scene, {}, {{options.uv_set, options.space == Space::tangent}}, report,
                            options.backend);
   const std::size_t slot = stage.slot_of(options.uv_set);
-  const raster::Projection projection = raster::Projection::texture(slot, map.width, map.height);
+  const raster::Projection projection = raster::Projection::texture(
+      slot, map.width, map.height,
+      {static_cast<double>(options.tile.column), static_cast<double>(options.tile.row)});
   const int side = stage::tile_side_of(options.backend);
   stage::TileComposer composer(stage, projection, map.width, map.height, side, side,
                                {.vertex_frame = options.space == Space::tangent, .slot = slot});

@@ -78,7 +78,9 @@ Deviation compare_on_screen(const scene::Scene& scene, const Options& options, c
     // The same triangles of the same materials: both list their pixels in the same order.
     for (int i = 0; i < composed.count; ++i) {
       const vec3<double> expected = normal(composed, i);
-      if (!(max_abs(expected) > 0) || !in_unit_square(composed.results.st.x[i], composed.results.st.y[i])) {
+      if (!(max_abs(expected) > 0) ||
+          !in_unit_square(composed.results.st.x[i] - static_cast<float>(options.tile.column),
+                          composed.results.st.y[i] - static_cast<float>(options.tile.row))) {
         angles.leave_out();
         continue;
       }

@@ -9,9 +9,10 @@ Projection Projection::camera(const mat4<double>& screen_from_world, double near
   return projection;
 }
 
-Projection Projection::texture(std::size_t slot, int width, int height) {
+Projection Projection::texture(std::size_t slot, int width, int height, vec2<double> corner) {
   Projection projection;
   projection.slot_ = slot;
+  projection.corner_ = corner;
   projection.size_ = {static_cast<double>(width), static_cast<double>(height)};
   return projection;
 }
@@ -26,7 +27,7 @@ std::array<vec3<double>, 3> Projection::corners(const Surface& surface, std::uin
       const mat4<double>& m = screen_from_world_;
       corners[i] = {dot(m.x, h), dot(m.y, h), dot(m.w, h)};
     } else {
-      const vec2<double> st = surface.slots[slot_].st[vertex];
+      const vec2<double> st = surface.slots[slot_].st[vertex] - corner_;
       corners[i] = {st.x * size_.x, st.y * size_.y, 1};
     }
   }

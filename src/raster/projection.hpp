@@ -13,8 +13,11 @@ class Projection {
   ///                    positions relative to the surfaces' origin
   /// near               what is nearer than this is not seen
   [[nodiscard]] static Projection camera(const mat4<double>& screen_from_world, double near);
-  /// The unit square of a UV set over a raster of this size.
-  [[nodiscard]] static Projection texture(std::size_t slot, int width, int height);
+  /// A unit square of a UV set over a raster of this size.
+  ///
+  /// corner  texture coordinates of its lower left corner
+  [[nodiscard]] static Projection texture(std::size_t slot, int width, int height,
+                                          vec2<double> corner = {0, 0});
 
   /// Corners of a triangle as (x w, y w, w) in pixels, y up; w is 1 in a texture.
   [[nodiscard]] std::array<vec3<double>, 3> corners(const Surface& surface, std::uint32_t triangle) const;
@@ -31,6 +34,7 @@ class Projection {
   double near_ = 0;
   std::size_t slot_ = 0;
   vec2<double> size_{0, 0};
+  vec2<double> corner_{0, 0};
 };
 
 } // namespace surfgrad::raster

@@ -206,7 +206,7 @@ TEST(BakeLostDetail, WritesLevelsOfTheMapAndOfItsRoughness) {
   const auto summary = bake(folder, {"-o", "o.png", "--samples", "2", "--roughness", "r.png", "--anisotropy",
                                      "a.png", "--base-roughness", "0.2", "--mips", "--gltf", "m.glb"});
   EXPECT_EQ(summary["lost_detail"].size(), 5u + 2 * 6); // 32 texels have 5 levels below theirs
-  double before = 0.2; // the base
+  double before = 0.2;                                  // the base
   for (int level = 0; level < 6; ++level) {
     const std::string suffix = level == 0 ? ".png" : "_mip" + std::to_string(level) + ".png";
     const image::Image normals = io::read_image(folder.path() / ("o" + suffix));
@@ -265,6 +265,40 @@ TEST(Bake, NeverReplacesAFileOfTheScene) {
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.error, HasSubstr("would replace a file of the scene"));
   EXPECT_EQ(io::read_image(folder.path() / "n.png").width, 8);
+}
+
+TEST(BakeUdim, WritesAMapForEachTileOfTheMesh) {
+  const Folder folder;
+  write_quad(folder, normal_map);
+  folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                        "vt 0.5 1\nvt 1.5 1\nvt 1.5 1.5\nvt 0.5 1.5\nf 1/1 2/2 3/3 4/4\n");
+  const auto summary = bake(folder, {"-o", "n.<UDIM>.png", "--padding", "0", "--verify"});
+  ASSERT_EQ(summary["tiles"].size(), 2u);
+  EXPECT_EQ(summary["tiles"][0]["udim"], 1011);
+  EXPECT_EQ(summary["tiles"][0]["output"], "n.1011.png");
+  EXPECT_EQ(summary["tiles"][1]["output"], "n.1012.png");
+  for (const auto& tile : summary["tiles"]) {
+    EXPECT_EQ(tile["covered_texels"], 16 * 16);
+    EXPECT_LT(tile["verified"]["most_deg"], 0.1);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "n.1001.png"));
+  // What lies in the other tile is no reason for a warning.
+  const Outcome run = run_program({"bake", "s.json", "--size", "32", "-o", "n.<UDIM>.png"}, folder.path());
+  EXPECT_THAT(run.error, testing::Not(HasSubstr("unit square")));
+}
+
+TEST(BakeUdim, BelowTheFirstTileAndBesideOtherOutputsIsRefused) {
+  const Folder folder;
+  write_quad(folder, normal_map);
+  folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                        "vt -0.5 0\nvt 0.5 0\nvt 0.5 0.5\nvt 0 0.5\nf 1/1 2/2 3/3 4/4\n");
+  const Outcome low = run_program({"bake", "s.json", "--size", "32", "-o", "n.<UDIM>.png"}, folder.path());
+  EXPECT_EQ(low.status, 1);
+  EXPECT_THAT(low.error, HasSubstr("tiles 1001 to 9999"));
+  const Outcome both =
+      run_program({"bake", "s.json", "-o", "n.<UDIM>.png", "--gltf", "m.glb"}, folder.path());
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.error, HasSubstr("<UDIM>"));
 }
 
 } // namespace
