@@ -1,20 +1,18 @@
+#include "batch.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "device.hpp"
 #include "diagnostic/error.hpp"
+#include "failure.hpp"
 #include "interrupt.hpp"
 
-#include <exception>
 #include <iostream>
-#include <new>
 #include <string>
 
 namespace {
 
-// Exit statuses, the same for every verb.
-constexpr int input_is_wrong = 1;
-constexpr int usage_is_wrong = 2;
-constexpr int machine_lacks_something = 3;
+using surfgrad::cli::machine_lacks_something;
+using surfgrad::cli::usage_is_wrong;
 
 int failed(int status, std::string_view what) {
   surfgrad::cli::complain(what);
@@ -34,16 +32,14 @@ int run(CLI::App& program, int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     return explain(program, error);
-  } catch (const surfgrad::InputError& error) {
-    return failed(input_is_wrong, error.what());
-  } catch (const surfgrad::MachineError& error) {
-    return failed(machine_lacks_something, error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(machine_lacks_something, "not enough memory");
+  } catch (const surfgrad::cli::SomeFailed& error) {
+    for (const std::string& line : error.lines()) surfgrad::cli::complain(line);
+    return error.status();
   } catch (const surfgrad::Cancelled&) {
     return machine_lacks_something; // main ends the program by the signal that asked for it
-  } catch (const std::exception& error) {
-    return failed(machine_lacks_something, std::string("internal error: ") + error.what());
+  } catch (...) {
+    const surfgrad::cli::Failure failure = surfgrad::cli::current_failure();
+    return failed(failure.status, failure.what);
   }
 }
 
