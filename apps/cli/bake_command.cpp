@@ -1,12 +1,18 @@
 #include "bake/bake.hpp"
 #include "bake/verify.hpp"
+#include "bake_record.hpp"
+#include "bake_summary.hpp"
+#include "batch.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "gltf_output.hpp"
 #include "io/extension.hpp"
 #include "io/image_file.hpp"
+#include "io/read_log.hpp"
 #include "lost_detail_output.hpp"
 #include "options.hpp"
+#include "output_names.hpp"
+#include "shard.hpp"
 
 #include <surfgrad/derivative.hpp>
 
@@ -14,9 +20,11 @@
 #include <nlohmann/json.hpp>
 
 #include <charconv>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,32 +42,12 @@ struct BakeCommand {
   bool verify = false;
   GltfOutput gltf;
   LostDetailOutput lost_detail;
+  std::vector<std::string> scenes; // without any the built-in demo
+  OutputNames names;
+  Shard shard;
+  bool if_changed = false;
+  const CLI::App* verb = nullptr;
 };
-
-void warn_about(const bake::Counts& baked, const bake::Options& job, Console& console) {
-  const char* const what_they_are = job.samples == 1 ? "texels" : "samples";
-  const auto warn = [&](std::int64_t count, const char* what) {
-    if (count > 0)
-      console.warn(fmt::format("{} of {} covered {} {}", count, baked.samples, what_they_are, what));
-  };
-  if (baked.outside > 0)
-    console.warn(
-        fmt::format("{} triangles reach beyond the unit square of UV set {}; what lies there is not baked",
-                    baked.outside, job.uv_set));
-  warn(baked.overlapping, "lie under more than one triangle; the first triangle is baked");
-  warn(baked.singular, job.samples == 1
-                           ? "have a tangent frame that cannot be inverted; they are flat in the map"
-                           : "have a tangent frame that cannot be inverted; they are left out");
-  warn(baked.clamped, "point below the surface; their steepest slope is baked");
-  warn(baked.degenerate,
-       "had no interpolated normal or no tangent frame; the triangle's normal stands in, layers without "
-       "a frame add nothing");
-  if (baked.beyond_range > 0)
-    console.warn(
-        fmt::format("{} of {} covered texels are steeper than the range of {:g}: they are flattened to "
-                    "it; --range {:.4g} would hold all",
-                    baked.beyond_range, baked.covered, job.range, 1.0001 * baked.steepest));
-}
 
 constexpr int most_padding = 256; // a window of that many rows is kept
 
@@ -99,62 +87,6 @@ bake::Options job_of(const BakeCommand& command, image::Depth depth) {
   return job;
 }
 
-nlohmann::json summary_of(const bake::Counts& baked, const bake::Options& job) {
-  nlohmann::json summary{{"width", job.width},
-                         {"height", job.height},
-                         {"uv", job.uv_set},
-                         {"covered_texels", baked.covered},
-                         {"padded_texels", baked.padded},
-                         {"triangles_outside", baked.outside}};
-  if (job.samples == 1) {
-    summary.update({{"touched_texels", baked.touched},
-                    {"overlapping_texels", baked.overlapping},
-                    {"singular_texels", baked.singular},
-                    {"clamped_texels", baked.clamped},
-                    {"degenerate_texels", baked.degenerate}});
-  } else {
-    summary.update({{"covered_samples", baked.samples},
-                    {"touched_samples", baked.touched},
-                    {"overlapping_samples", baked.overlapping},
-                    {"singular_samples", baked.singular},
-                    {"clamped_samples", baked.clamped},
-                    {"degenerate_samples", baked.degenerate}});
-  }
-  if (job.encoding == bake::Encoding::derivative)
-    summary.update({{"range", job.range},
-                    {"steepest_slope", baked.steepest},
-                    {"texels_beyond_range", baked.beyond_range}});
-  return summary;
-}
-
-/// Rows of pictures are counted from the top.
-int row_from_top(const bake::Deviation& deviation, int height) { return height - 1 - deviation.y; }
-
-nlohmann::json summary_of(const bake::Deviation& deviation, const char* pixels, int height) {
-  return {{pixels, deviation.compared},     {"left_out", deviation.left_out},
-          {"mean_deg", deviation.mean_deg}, {"high_deg", deviation.high_deg},
-          {"most_deg", deviation.most_deg}, {"most_at", {deviation.x, row_from_top(deviation, height)}}};
-}
-
-std::string words_of(const bake::Deviation& deviation, int height) {
-  return fmt::format("{:.4f} degrees in the mean, {:.4f} at 99.9 %, {:.4f} at most (column {}, row {} from "
-                     "the top)",
-                     deviation.mean_deg, deviation.high_deg, deviation.most_deg, deviation.x,
-                     row_from_top(deviation, height));
-}
-
-void say_verified(const bake::Verification& verified, const bake::Options& job, Console& console) {
-  const bake::Deviation& texels = verified.texels;
-  console.say(fmt::format("decoded, {} texels are off by {}", texels.compared, words_of(texels, job.height)));
-  if (texels.left_out > 0)
-    console.say(fmt::format("{} texels that no tangent-space map can hold are left out", texels.left_out));
-  const bake::Deviation& screen = verified.on_screen;
-  console.say(fmt::format("filtered, {} pixels of a picture of {}x{} are off by {}", screen.compared,
-                          bake::screen_side, bake::screen_side, words_of(screen, bake::screen_side)));
-  if (screen.left_out > 0)
-    console.say(fmt::format("{} pixels that show nothing of the map are left out", screen.left_out));
-}
-
 constexpr std::string_view udim_mark = "<UDIM>";
 
 bool has_udim(const std::filesystem::path& output) {
@@ -167,10 +99,42 @@ std::filesystem::path file_of_tile(const std::filesystem::path& output, const ba
   return output.parent_path() / name;
 }
 
-/// Bakes, verifies and tells of one map. Returns its summary where machines are told.
+/// All that decides what an output holds but the contents of the files that are read.
+nlohmann::json job_to_record(const BakeCommand& command, const std::filesystem::path& output) {
+  nlohmann::json options;
+  for (const CLI::Option* option : command.verb->get_options()) {
+    static const std::set<std::string> without_effect{"SCENE",  "--threads",    "--quiet", "--json",
+                                                      "--help", "--if-changed", "--shard", "--verify"};
+    if (option->count() > 0 && !without_effect.contains(option->get_name()))
+      options[option->get_name()] = option->results();
+  }
+  // Relative names among the options mean files of this folder.
+  return {{"surfgrad", SURFGRAD_VERSION},
+          {"folder", std::filesystem::current_path().string()},
+          {"scene", command.common.scene},
+          {"output", output.string()},
+          {"options", options}};
+}
+
+/// Whether --if-changed finds the output as it would be made; that is told.
+bool is_unchanged(const BakeCommand& command, const std::filesystem::path& output) {
+  if (!command.if_changed) return false;
+  Console console("comparing", command.common.quiet);
+  const BakeRecord record(output, job_to_record(command, output));
+  if (!record.is_up_to_date([&](std::string_view text) { console.warn(text); })) return false;
+  if (!command.common.json) console.say(fmt::format("{} is up to date", output.string()));
+  return true;
+}
+
+nlohmann::json unchanged_summary(const std::filesystem::path& output) {
+  return {{"output", output.string()}, {"unchanged", true}};
+}
+
+/// Bakes, verifies and tells of one map. Returns its summary for machines.
 nlohmann::json bake_map(BakeCommand& command, scene::Scene scene, const bake::Options& job,
                         const std::filesystem::path& output, const ChosenDevice& device) {
-  Console console("baking", command.common.quiet);
+  const bool is_one_of_many = command.scenes.size() > 1 || has_udim(command.common.output);
+  Console console(is_one_of_many ? "baking " + output.filename().string() : "baking", command.common.quiet);
   const int channels = job.encoding == bake::Encoding::rgb || job.full_blue ? 3 : 2;
   OutputFile file(output, {job.width, job.height, channels}, job.depth, command.common.compression);
   const auto write = [&](const image::Image& band) { file.write(band); };
@@ -187,21 +151,17 @@ nlohmann::json bake_map(BakeCommand& command, scene::Scene scene, const bake::Op
     verified = bake::verify(scene, job, io::read_image(output), verifying.report());
   }
   const ChosenDevice::Filtered filtered = device.filtered();
-  if (command.common.json) {
-    nlohmann::json summary = summary_of(baked, job);
-    summary.update({{"output", output.string()},
-                    {"device", device.name()},
-                    {"filter", filtered.filter},
-                    {"maps_sampled_by_hardware", filtered.sampled},
-                    {"filter_bound_deg", filtered.bound_deg}});
-    if (verified)
-      summary.update({{"verified", summary_of(verified->texels, "texels", job.height)},
-                      {"verified_on_screen", summary_of(verified->on_screen, "pixels", bake::screen_side)}});
-    for (const std::filesystem::path& written : command.lost_detail.files())
-      summary["lost_detail"].push_back(written.string());
-    if (command.gltf.is_wanted()) summary["gltf"] = command.gltf.file().string();
-    return summary;
-  }
+  nlohmann::json summary = summary_of(baked, job);
+  summary.update({{"output", output.string()},
+                  {"device", device.name()},
+                  {"filter", filtered.filter},
+                  {"maps_sampled_by_hardware", filtered.sampled},
+                  {"filter_bound_deg", filtered.bound_deg}});
+  if (verified) summary.update(summary_of(*verified, job));
+  for (const std::filesystem::path& written : command.lost_detail.files())
+    summary["lost_detail"].push_back(written.string());
+  if (command.gltf.is_wanted()) summary["gltf"] = command.gltf.file().string();
+  if (command.common.json) return summary;
   warn_about(baked, job, console);
   console.say(fmt::format("wrote {} ({}x{}, {} texels covered)", output.string(), job.width, job.height,
                           baked.covered));
@@ -210,27 +170,50 @@ nlohmann::json bake_map(BakeCommand& command, scene::Scene scene, const bake::Op
   if (command.gltf.is_wanted()) console.say(fmt::format("wrote {}", command.gltf.file().string()));
   if (verified) say_verified(*verified, job, console);
   say_filtered(filtered, console);
-  return {};
+  return summary;
+}
+
+std::vector<std::filesystem::path> written_by(const BakeCommand& command,
+                                              const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> files = command.lost_detail.files();
+  files.push_back(output);
+  if (command.gltf.is_wanted()) files.push_back(command.gltf.file());
+  return files;
 }
 
 /// A map for each tile that the mesh lies in.
-nlohmann::json bake_tiles(BakeCommand& command, const scene::Scene& scene, bake::Options job,
-                          const std::filesystem::path& output, const ChosenDevice& device) {
+///
+/// number  of the scene among those of the command
+nlohmann::json bake_tiles(BakeCommand& command, const scene::Scene& scene, std::size_t number,
+                          bake::Options job, const ChosenDevice& device, const io::ReadLog& log) {
+  const std::filesystem::path output = command.common.output;
+  const auto inputs = log.files();
   const std::vector<bake::UdimTile> tiles = bake::udim_tiles(scene, job.uv_set);
   for (const bake::UdimTile& tile : tiles) check_is_no_input(scene, file_of_tile(output, tile), "--output");
   nlohmann::json summaries = nlohmann::json::array();
   for (const bake::UdimTile& tile : tiles) {
+    if (!command.shard.has(number++)) continue;
+    const std::filesystem::path file = file_of_tile(output, tile);
     job.tile = tile;
-    summaries.push_back(bake_map(command, scene, job, file_of_tile(output, tile), device));
+    if (is_unchanged(command, file)) {
+      summaries.push_back(unchanged_summary(file));
+    } else {
+      summaries.push_back(bake_map(command, scene, job, file, device));
+      if (command.if_changed) BakeRecord(file, job_to_record(command, file)).write(inputs, {file});
+    }
     summaries.back()["udim"] = tile.number();
   }
   return {{"tiles", summaries}};
 }
 
-void run(BakeCommand& command) {
+/// The maps of one scene. Returns the summary for machines.
+///
+/// number  of the scene among those of the command
+nlohmann::json bake_scene(BakeCommand& command, std::size_t number, const ChosenDevice& device) {
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
-  const bake::Options job = job_of(command, depth);
+  bake::Options job = job_of(command, depth);
+  job.backend = device.backend();
   check_output(output, depth);
   command.gltf.check(job, output);
   command.lost_detail.check(job, output);
@@ -240,18 +223,64 @@ void run(BakeCommand& command) {
                                "<UDIM> goes with the normal map alone: leave out --gltf, --roughness, "
                                "--anisotropy and --mips");
   if (command.verify || job.fill) check_memory({job.width, job.height}); // they hold the map
+  if (!tiled && is_unchanged(command, output)) return unchanged_summary(output);
+  const io::ReadLog log;
+  Console console("reading", command.common.quiet);
+  scene::Scene scene = open_scene(command.common, console.report());
+  check_is_no_input(scene, output, "--output");
+  command.gltf.check(scene);
+  command.lost_detail.check(scene, job, output);
+  if (tiled) return bake_tiles(command, scene, number, job, device, log);
+  nlohmann::json summary = bake_map(command, std::move(scene), job, output, device);
+  if (command.if_changed)
+    BakeRecord(output, job_to_record(command, output)).write(log.files(), written_by(command, output));
+  return summary;
+}
+
+/// The command as if it was given for this scene alone.
+BakeCommand for_scene(const BakeCommand& all, const std::string& scene) {
+  BakeCommand one = all;
+  const auto file_for = [&](const std::string& pattern) { return all.names.file_for(pattern, scene); };
+  one.common.scene = scene;
+  one.common.output = file_for(all.common.output).string();
+  one.gltf.rename(file_for);
+  one.lost_detail.rename(file_for);
+  return one;
+}
+
+void run(BakeCommand& command) {
+  if (command.common.output.empty()) {
+    if (!command.names.has_folder()) throw CLI::RequiredError("--output or --out-dir");
+    command.common.output = "<NAME>_normal.png";
+  }
+  std::vector<std::string> scenes = command.scenes;
+  if (scenes.empty()) scenes.emplace_back(); // the demo
+  command.names.check("--output", command.common.output, scenes);
+  command.gltf.check(command.names, scenes);
+  command.lost_detail.check(command.names, scenes);
+  command.names.make_folder();
   const ChosenDevice device(command.common.device);
   on_threads(command.common.threads, [&] {
-    Console console("baking", command.common.quiet);
-    scene::Scene scene = open_scene(command.common, console.report());
-    check_is_no_input(scene, output, "--output");
-    command.gltf.check(scene);
-    command.lost_detail.check(scene, job, output);
-    bake::Options on_device = job;
-    on_device.backend = device.backend();
-    const nlohmann::json summary = tiled ? bake_tiles(command, scene, on_device, output, device)
-                                         : bake_map(command, std::move(scene), on_device, output, device);
-    if (command.common.json) console.say_json(summary);
+    Batch batch("scenes", scenes.size());
+    nlohmann::json summaries = nlohmann::json::array();
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      const bool tiled = has_udim(command.common.output);
+      if (!tiled && !command.shard.has(i)) continue;
+      const auto failure = batch.run(scenes[i], [&] {
+        BakeCommand one = for_scene(command, scenes[i]);
+        summaries.push_back(bake_scene(one, i, device));
+      });
+      if (failure) summaries.push_back({{"error", failure->what}});
+      summaries.back()["scene"] = scenes[i];
+    }
+    if (command.common.json) {
+      Console console("baking", command.common.quiet);
+      if (command.scenes.size() > 1)
+        console.say_json({{"scenes", summaries}});
+      else if (!summaries.empty() && !summaries[0].contains("error"))
+        console.say_json(summaries[0]);
+    }
+    batch.finish();
   });
 }
 
@@ -304,8 +333,20 @@ void add_bake_command(CLI::App& program) {
               "  surfgrad bake pirate.json -o pirate_n.png --gltf pirate.glb\n"
               "  surfgrad bake pirate.json -o pirate_n.<UDIM>.png     a map for each UDIM tile of the mesh\n"
               "  surfgrad bake pirate.json -o pirate_n.png --samples 4 --roughness pirate_r.png\n"
-              "  surfgrad bake pirate.json -o pirate_o.exr --space object");
-  add_common_options(verb, command->common, "16");
+              "  surfgrad bake pirate.json -o pirate_o.exr --space object\n"
+              "  surfgrad bake *.json --out-dir baked --if-changed    each scene that is not baked yet\n"
+              "  surfgrad bake *.json --out-dir baked --gltf \"<NAME>.glb\" --shard 2/8");
+  command->verb = &verb;
+  verb.add_option("SCENE", command->scenes,
+                  "stack documents (.json) or models (.gltf, .glb, .obj); without any the built-in demo")
+      ->check(not_empty());
+  verb.add_option("-o,--output", command->common.output,
+                  "file to write; the extension decides the format. <UDIM> in its name: one for each tile\n"
+                  "(default with --out-dir: <NAME>_normal.png)")
+      ->check(not_empty())
+      ->type_name("FILE");
+  command->names.add_option(verb);
+  add_picture_options(verb, command->common, "16");
   verb.add_option("--uv", command->job.uv_set, "UV set that the map is laid out in")
       ->capture_default_str()
       ->check(CLI::Range(0, 7))
@@ -334,6 +375,10 @@ void add_bake_command(CLI::App& program) {
       "at the baked points, and filtered in a picture from the scene's camera");
   command->lost_detail.add_options(verb);
   command->gltf.add_option(verb);
+  verb.add_flag("--if-changed", command->if_changed,
+                "leave an output alone that is there as it was made, if what it was made from still holds\n"
+                "the same; that is kept beside it, as FILE.record.json");
+  command->shard.add_option(verb);
   verb.callback([command] { run(*command); });
 }
 

@@ -18,6 +18,14 @@ void GltfOutput::add_option(CLI::App& verb) {
       ->type_name("FILE");
 }
 
+void GltfOutput::check(const OutputNames& names, const std::vector<std::string>& scenes) const {
+  names.check("--gltf", file_.string(), scenes);
+}
+
+void GltfOutput::rename(const std::function<std::filesystem::path(const std::string&)>& file_for) {
+  file_ = file_for(file_.string());
+}
+
 void GltfOutput::check(const bake::Options& job, const std::filesystem::path& map) const {
   if (!is_wanted()) return;
   if (io::lower_extension(map) != ".png" || job.space != bake::Space::tangent ||

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "bake/bake.hpp"
+#include "output_names.hpp"
 #include "scene/scene.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace surfgrad::cli {
 
@@ -17,6 +20,11 @@ class GltfOutput {
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+  /// Refuses names that do not tell the scenes apart.
+  void check(const OutputNames& names, const std::vector<std::string>& scenes) const;
+  /// The names become what they mean for one scene.
+  void rename(const std::function<std::filesystem::path(const std::string&)>& file_for);
 
   /// Before long work. Throws CLI::ValidationError where glTF cannot hold the map that is asked for, and as
   /// io::check_glb_output.

@@ -62,6 +62,16 @@ void LostDetailOutput::add_options(CLI::App& verb) {
       "slopes, with the detail that each level loses in its roughness");
 }
 
+void LostDetailOutput::check(const OutputNames& names, const std::vector<std::string>& scenes) const {
+  names.check("--roughness", roughness_.string(), scenes);
+  names.check("--anisotropy", anisotropy_.string(), scenes);
+}
+
+void LostDetailOutput::rename(const std::function<fs::path(const std::string&)>& file_for) {
+  roughness_ = file_for(roughness_.string());
+  anisotropy_ = file_for(anisotropy_.string());
+}
+
 void LostDetailOutput::check(const bake::Options& job, const fs::path& map) const {
   if (!anisotropy_.empty() && roughness_.empty())
     throw CLI::ValidationError("--anisotropy", "goes with --roughness, which holds the rest of it");

@@ -4,12 +4,14 @@
 #include "bake/roughness.hpp"
 #include "image/image.hpp"
 #include "io/image_file.hpp"
+#include "output_names.hpp"
 #include "scene/scene.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,11 @@ class LostDetailOutput {
   void add_options(CLI::App& verb);
 
   [[nodiscard]] bool is_wanted() const { return !roughness_.empty() || is_mips_wanted_; }
+
+  /// Refuses names that do not tell the scenes apart.
+  void check(const OutputNames& names, const std::vector<std::string>& scenes) const;
+  /// The names become what they mean for one scene.
+  void rename(const std::function<std::filesystem::path(const std::string&)>& file_for);
 
   /// Before long work. Throws CLI::ValidationError where the options contradict each other or the job's,
   /// InputError where a file cannot be written.

@@ -64,14 +64,7 @@ void add_compress_option(CLI::App& verb, io::Compression& compression) {
       ->option_text("NAME");
 }
 
-void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits) {
-  verb.add_option("SCENE", options.scene,
-                  "stack document (.json) or model (.gltf, .glb, .obj); without it the built-in demo")
-      ->check(not_empty());
-  verb.add_option("-o,--output", options.output, "file to write; the extension decides the format")
-      ->required()
-      ->check(not_empty())
-      ->type_name("FILE");
+void add_picture_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits) {
   verb.add_option("--size", options.size, "side in pixels, or WIDTHxHEIGHT")
       ->capture_default_str()
       ->type_name("N");
@@ -82,6 +75,17 @@ void add_common_options(CLI::App& verb, CommonOptions& options, const std::strin
   add_compress_option(verb, options.compression);
   add_device_options(verb, options.device);
   add_job_options(verb, options.threads, options.quiet, options.json);
+}
+
+void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits) {
+  verb.add_option("SCENE", options.scene,
+                  "stack document (.json) or model (.gltf, .glb, .obj); without it the built-in demo")
+      ->check(not_empty());
+  verb.add_option("-o,--output", options.output, "file to write; the extension decides the format")
+      ->required()
+      ->check(not_empty())
+      ->type_name("FILE");
+  add_picture_options(verb, options, integer_bits);
 }
 
 Size parse_size(const std::string& text) {

@@ -37,7 +37,11 @@ void add_job_options(CLI::App& verb, int& threads, bool& quiet, bool& json);
 /// What the verbs that write images take.
 void add_compress_option(CLI::App& verb, io::Compression& compression);
 
-/// integer_bits is what the verb writes into PNG and TIFF unless told otherwise.
+/// How a picture is made and written. integer_bits is what the verb writes into PNG and TIFF unless told
+/// otherwise.
+void add_picture_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits);
+
+/// One scene, one file, and add_picture_options.
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits);
 
 struct Size {

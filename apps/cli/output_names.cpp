@@ -40,6 +40,9 @@ void OutputNames::check(const std::string& option, const std::string& pattern,
                                                      "them another name, or a call of its own",
                                                      file.string(), at->second, input));
   }
+}
+
+void OutputNames::make_folder() const {
   if (!has_folder()) return;
   std::error_code error;
   fs::create_directories(folder_, error);

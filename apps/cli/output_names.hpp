@@ -16,12 +16,13 @@ class OutputNames {
 
   [[nodiscard]] bool has_folder() const { return !folder_.empty(); }
 
-  /// Refuses names that do not tell the inputs apart, and makes the folder. `option` is the one that gave
-  /// the pattern; an empty pattern is not looked at.
-  ///
-  /// Throws CLI::ValidationError; MachineError where the folder cannot be made.
+  /// Refuses names that do not tell the inputs apart: throws CLI::ValidationError. `option` is the one that
+  /// gave the pattern; an empty pattern is not looked at.
   void check(const std::string& option, const std::string& pattern,
              const std::vector<std::string>& inputs) const;
+
+  /// Once all is checked. Throws MachineError where the folder cannot be made.
+  void make_folder() const;
 
   /// The file that a pattern means for an input. Empty for an empty pattern.
   [[nodiscard]] std::filesystem::path file_for(const std::string& pattern,

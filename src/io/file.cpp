@@ -1,6 +1,7 @@
 #include "io/file.hpp"
 
 #include "diagnostic/error.hpp"
+#include "io/read_log.hpp"
 
 #include <fmt/format.h>
 
@@ -98,6 +99,7 @@ std::vector<std::byte> read_file(const fs::path& file) {
     throw InputError({.file = file,
                       .problem = fmt::format("only {} of {} bytes could be read", stream.gcount(), size),
                       .remedy = "check that nothing else changes the file and that its disk is sound"});
+  note_read(file, bytes);
   return bytes;
 }
 
