@@ -1,10 +1,13 @@
 #include "maps/inspect.hpp"
 
+#include "diagnostic/error.hpp"
 #include "maps/resample.hpp"
 #include "stage/bands.hpp"
 
 #include <surfgrad/derivative.hpp>
 #include <surfgrad/moments.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,14 +65,16 @@ void look_at_channels(const image::Image& map, Inspection& result) {
   result.is_banded = map.depth == image::Depth::unorm16 && !has_more && !is_constant;
 }
 
-void look_at_vectors(const image::Image& map, Inspection& result) {
+/// Of every so many rows.
+void look_at_vectors(const image::Image& map, int row_step, Inspection& result) {
   double lengths = 0;
   double squares = 0;
   vec3<double> sum{0, 0, 0};
   std::int64_t unit = 0;
   std::int64_t unit_inward = 0;
   std::vector<float> row(map.index(map.width, 0));
-  for (int y = 0; y < map.height; ++y) {
+  int rows = 0;
+  for (int y = 0; y < map.height; y += row_step, ++rows) {
     stage::copy_values(map, y, 1, row.data());
     for (int x = 0; x < map.width; ++x) {
       const float* texel = row.data() + map.index(x, 0);
@@ -84,7 +89,7 @@ void look_at_vectors(const image::Image& map, Inspection& result) {
       sum = sum + v;
     }
   }
-  const double count = double{1.0 * map.width} * map.height;
+  const double count = double{1.0 * map.width} * rows;
   result.mean_length = lengths / count;
   result.length_deviation = std::sqrt(squares / count);
   result.unit_share = static_cast<double>(unit) / count;
@@ -272,9 +277,9 @@ AgainstHeights compare(image::Image slopes, const image::Image& heights) {
   const double all = variance[0][0] + variance[1][0];
   result.scale = all > 0 ? (std::abs(covariance[0]) + std::abs(covariance[1])) / all : 0;
   const double weaker = std::min(std::abs(result.correlation.x), std::abs(result.correlation.y));
-  result.confidence = weaker > 0.7    ? Confidence::certain
-                      : weaker > 0.35 ? Confidence::likely
-                                      : Confidence::cannot_tell;
+  result.confidence = weaker > 0.7   ? Confidence::certain
+                      : weaker > 0.3 ? Confidence::likely
+                                     : Confidence::cannot_tell;
   return result;
 }
 
@@ -292,7 +297,7 @@ Inspection inspect(const image::Image& map, const image::Image* heights, const s
     return result;
   }
   if (colors >= 3) {
-    look_at_vectors(map, result);
+    look_at_vectors(map, 1, result);
   } else {
     result.look = Look::tangent_normals; // what else would have two
     result.look_confidence = Confidence::likely;
@@ -306,6 +311,18 @@ Inspection inspect(const image::Image& map, const image::Image* heights, const s
   if (is_down) result.tilt.y = -result.tilt.y;
   if (heights != nullptr) result.heights = compare(tamed(slopes.map), *heights);
   return result;
+}
+
+void require_normals(const image::Image& map, const std::filesystem::path& file) {
+  if ((map.has_alpha ? map.channels - 1 : map.channels) < 3) return;
+  Inspection result;
+  look_at_vectors(map, std::max(1, map.height / 256), result);
+  if (result.look == Look::no_normals)
+    throw InputError(
+        {.file = file,
+         .problem = fmt::format("is no map of normals: {:.0f} % of its vectors have a length near 1",
+                                100 * result.unit_share),
+         .remedy = "say with --from what it is"});
 }
 
 } // namespace surfgrad::maps

@@ -93,9 +93,9 @@ TEST(Inspect, TiltLengthsInwardTexelsAndSlopesAreMeasured) {
   for (int x = 0; x < 40; ++x) map.at(x, 7, 2) = 0.4f; // z = -0.2
   const Inspection found = inspect(map, nullptr, "n.png");
   EXPECT_EQ(found.inward, 40);
-  // 39 of 40 rows have the slope 7 / 24; the rest the steepest that there is.
-  EXPECT_NEAR(found.tilt.x, 7.0 / 24 * 39 / 40 + 128.0 / 40, 1e-4);
-  EXPECT_EQ(found.steepest, 128);
+  // 39 of 40 rows have the slope 7 / 24, the rest 0.28 / 0.2: vectors are read as if they pointed outward.
+  EXPECT_NEAR(found.tilt.x, 7.0 / 24 * 39 / 40 + 1.4 / 40, 1e-4);
+  EXPECT_NEAR(found.steepest, 1.4, 1e-6);
   EXPECT_NEAR(found.mean_length, (39 + std::hypot(0.28, 0.2)) / 40, 1e-5);
   EXPECT_NEAR(found.unit_share, 39.0 / 40, 1e-9);
 }
