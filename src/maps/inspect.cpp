@@ -245,7 +245,7 @@ Tiling find_tiling(const image::Image& map, bool along_s) {
   // Noise without neighbourhood meets itself anywhere.
   const double likeness = middle_of(near) / middle_of(far);
   if (likeness > 0.5) return result;
-  const bool is_plain = result.repeats ? likeness < 0.1 : result.seam > 1.5;
+  const bool is_plain = result.repeats ? likeness < 0.2 : result.seam > 1.5;
   result.confidence = is_plain ? Confidence::certain : Confidence::likely;
   return result;
 }
