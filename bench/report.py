@@ -16,6 +16,7 @@ TITLES = {
     "bake": "Baking",
     "blender": "Baked models in Blender",
     "tangents": "Tangents",
+    "maps": "Map tools",
     "render": "Rendering",
     "growth": "Growth",
 }
