@@ -2,7 +2,7 @@
 
 #include "bake/udim.hpp"
 #include "diagnostic/report.hpp"
-#include "image/image.hpp"
+#include "image/normal_format.hpp"
 #include "scene/scene.hpp"
 #include "stack/words.hpp"
 #include "stage/backend.hpp"
@@ -19,12 +19,7 @@ enum class Space {
   world,
 };
 
-/// How a texel stands for a normal n.
-enum class Encoding {
-  rgb,        ///< n / 2 + 1/2
-  rg,         ///< the first two of these; readers reconstruct z. Tangent space alone
-  derivative, ///< slopes, as a layer `derivative_map` reads them. Tangent space alone
-};
+using Encoding = image::NormalEncoding;
 
 struct Options {
   int width = 1024;
