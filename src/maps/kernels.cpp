@@ -12,8 +12,8 @@ std::vector<double> spline_differences() {
   const double z = std::sqrt(3.0) - 2;
   double weight = 0.5 * std::sqrt(3.0) * (1 - z * z);
   std::vector<double> weights;
-  // The first that is left out is below a unit in the last place of a float beside the first.
-  for (; std::abs(weight) > 0x1p-25; weight *= z) weights.push_back(weight);
+  // What is left out is less than the rounding of a slope to float.
+  for (; std::abs(weight) > 0x1p-31; weight *= z) weights.push_back(weight);
   // What is left out would make planes a little too flat.
   double slope = 0;
   for (std::size_t n = 1; n <= weights.size(); ++n) slope += 2 * static_cast<double>(n) * weights[n - 1];
@@ -37,11 +37,15 @@ Weights weights_of(Kernel kernel) {
   return {{0.5}, 1, 0};
 }
 
-double response(const Weights& weights, double u, double v) {
-  double along = 0;
+double response_along(const Weights& weights, double u) {
+  double sum = 0;
   for (std::size_t n = 1; n <= weights.difference.size(); ++n)
-    along += 2 * weights.difference[n - 1] * std::sin(static_cast<double>(n) * u);
-  return along * (weights.centre + 2 * weights.side * std::cos(v));
+    sum += 2 * weights.difference[n - 1] * std::sin(static_cast<double>(n) * u);
+  return sum;
+}
+
+double response_across(const Weights& weights, double v) {
+  return weights.centre + 2 * weights.side * std::cos(v);
 }
 
 } // namespace surfgrad::maps

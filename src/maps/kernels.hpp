@@ -21,8 +21,12 @@ struct Weights {
 
 [[nodiscard]] Weights weights_of(Kernel kernel);
 
-/// What a kernel makes of exp(i (u x + v y)), in radians a texel: i times this is the slope along x. The
-/// truth is u.
-[[nodiscard]] double response(const Weights& weights, double u, double v);
+/// What a kernel makes of the wave exp(i (u x + v y)), u and v in radians a texel: i * response is its slope
+/// along x. The truth is u. Of the two factors one depends on u alone, the other on v.
+[[nodiscard]] double response_along(const Weights& weights, double u);
+[[nodiscard]] double response_across(const Weights& weights, double v);
+[[nodiscard]] inline double response(const Weights& weights, double u, double v) {
+  return response_along(weights, u) * response_across(weights, v);
+}
 
 } // namespace surfgrad::maps
