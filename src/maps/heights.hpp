@@ -14,7 +14,7 @@ namespace surfgrad::maps {
 struct Relief {
   /// Slopes along s and t where neighbouring texels differ by 1: the height of 1 over the side of a texel.
   vec2<double> slope_scale{1, 1};
-  Kernel kernel = Kernel::bspline;
+  Kernel kernel = Kernel::scharr;
   Borders borders = Borders::wrap;
 };
 

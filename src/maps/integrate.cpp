@@ -32,27 +32,33 @@ class Parts {
 
 /// What a kernel does to the frequencies of an axis.
 struct Axis {
-  std::vector<double> along, across;
+  std::vector<double> frequency, along, across; ///< in radians a texel; of a kernel
 
   Axis(const Weights& weights, std::size_t length) {
     for (std::size_t k = 0; k < length; ++k) {
-      const double w = 2 * pi * static_cast<double>(k) / static_cast<double>(length);
-      along.push_back(response_along(weights, w));
-      across.push_back(response_across(weights, w));
+      const double turns = static_cast<double>(k) / static_cast<double>(length);
+      frequency.push_back(2 * pi * (turns > 0.5 ? turns - 1 : turns));
+      along.push_back(response_along(weights, frequency.back()));
+      across.push_back(response_across(weights, frequency.back()));
     }
   }
 };
 
+// Waves of which a kernel sees less than this part are left out of the heights. Slopes that it did not make,
+// or that were rounded, would come out multiplied by more than its inverse.
+constexpr double least_seen = 1.0 / 32;
+
 /// Turns the spectrum of ds + i dt into that of the heights: of all h the one for which |i D h - d|^2 is
-/// least, D being the kernel's response. Frequencies that the kernel does not see get none.
+/// least, D being the kernel's response.
 void divide_by_response(float* spectrum, std::size_t width, std::size_t height,
                         const Integration& integration) {
   const Weights weights = weights_of(integration.kernel);
   const Axis s(weights, width);
   const Axis t(weights, height);
+  const vec2<double> texels_a_unit{1 / integration.texel.x, 1 / integration.texel.y};
   const auto number = [&](std::size_t x, std::size_t y) { return spectrum + 2 * (y * width + x); };
-  // A frequency and its negative together: the parts of d are those of a real picture each, whose numbers at
-  // the two are conjugate.
+  // A frequency and its negative together: ds and dt are real pictures, whose numbers at the two are
+  // conjugate.
   image::in_parallel(height / 2 + 1, width, [&](std::size_t y) {
     const std::size_t opposite_y = (height - y) % height;
     for (std::size_t x = 0; x < width; ++x) {
@@ -65,16 +71,13 @@ void divide_by_response(float* spectrum, std::size_t width, std::size_t height,
       const Complex ds = 0.5 * (z + mirrored);
       const Complex i_dt = 0.5 * (z - mirrored);
       const Complex dt{i_dt.imag(), -i_dt.real()};
-      const double along_s = s.along[x] * t.across[y] / integration.texel.x;
-      const double along_t = t.along[y] * s.across[x] / integration.texel.y;
-      const double both = along_s * along_s + along_t * along_t;
-      // The slowest wave of the largest map has 1e-4 a texel; sines of multiples of pi are off by 1e-16 of
-      // that.
-      constexpr double unseen = 1e-20;
-      const double scale = std::max(integration.texel.x, integration.texel.y);
-      const Complex sum = along_s * ds + along_t * dt;
-      const Complex h =
-          both * scale * scale > unseen ? Complex{sum.imag() / both, -sum.real() / both} : Complex{};
+      const vec2<double> seen =
+          texels_a_unit * vec2<double>{s.along[x] * t.across[y], t.along[y] * s.across[x]};
+      const vec2<double> there_is = texels_a_unit * vec2<double>{s.frequency[x], t.frequency[y]};
+      const double squared = dot(seen, seen);
+      const bool is_seen = squared > least_seen * least_seen * dot(there_is, there_is);
+      const Complex sum = seen.x * ds + seen.y * dt;
+      const Complex h = is_seen ? Complex{sum.imag() / squared, -sum.real() / squared} : Complex{};
       here[0] = static_cast<float>(h.real());
       here[1] = static_cast<float>(h.imag());
       there[0] = static_cast<float>(h.real());

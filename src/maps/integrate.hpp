@@ -12,9 +12,9 @@ namespace surfgrad::maps {
 /// How slopes become heights.
 struct Integration {
   Borders borders = Borders::wrap;
-  /// With borders that wrap: what the slopes were measured with. Slopes that this kernel made come from just
-  /// the heights that are returned.
-  Kernel kernel = Kernel::bspline;
+  /// With borders that wrap: what the slopes were measured with. The heights that are returned are those it
+  /// made these slopes of, but for waves that it hardly sees: they are left out.
+  Kernel kernel = Kernel::scharr;
   vec2<double> texel{1, 1}; ///< sides of a texel, in the unit of the heights
 };
 
