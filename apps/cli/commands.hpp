@@ -11,5 +11,6 @@ void add_displace_command(CLI::App& program);
 void add_gallery_command(CLI::App& program);
 void add_shader_command(CLI::App& program);
 void add_tangents_command(CLI::App& program);
+void add_convert_command(CLI::App& program);
 
 } // namespace surfgrad::cli

@@ -4,35 +4,18 @@
 #include "bake/slope_statistics.hpp"
 #include "console.hpp"
 #include "interrupt.hpp"
+#include "map_options.hpp"
 #include "options.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 
 namespace surfgrad::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The file of a mip level: rock_n.png, rock_n_mip1.png ...
-fs::path file_of_level(const fs::path& file, int level) {
-  if (level == 0) return file;
-  fs::path name = file.stem();
-  name += fmt::format("_mip{}", level);
-  name += file.extension();
-  return file.parent_path() / name;
-}
-
-/// A number within [0, 1], else a file.
-bake::BaseRoughness base_of(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return bake::BaseRoughness(value);
-  return bake::BaseRoughness(io::read_image(text));
-}
 
 image::Depth depth_of(const fs::path& file) { return depth_for(file, "", image::Depth::unorm8); }
 
@@ -75,10 +58,6 @@ void LostDetailOutput::rename(const std::function<fs::path(const std::string&)>&
 void LostDetailOutput::check(const bake::Options& job, const fs::path& map) const {
   if (!anisotropy_.empty() && roughness_.empty())
     throw CLI::ValidationError("--anisotropy", "goes with --roughness, which holds the rest of it");
-  double value = 0;
-  const auto [end, error] = std::from_chars(base_.data(), base_.data() + base_.size(), value);
-  if (error == std::errc() && end == base_.data() + base_.size() && !(value >= 0 && value <= 1))
-    throw CLI::ValidationError("--base-roughness", "must be a number from 0 to 1, or a file");
   if (!is_wanted()) return;
   if (job.space != bake::Space::tangent)
     throw CLI::ValidationError(is_mips_wanted_ ? "--mips" : "--roughness", "is for --space tangent");
@@ -96,7 +75,7 @@ void LostDetailOutput::check(const bake::Options& job, const fs::path& map) cons
 
 void LostDetailOutput::check(const scene::Scene& scene, const bake::Options& job, const fs::path& map) {
   if (!is_wanted()) return;
-  base_read_ = base_of(base_);
+  base_read_ = base_roughness_of(base_);
   const int levels =
       is_mips_wanted_ ? std::bit_width(static_cast<unsigned>(std::max(job.width, job.height))) : 1;
   for (int level = 0; level < levels; ++level) {

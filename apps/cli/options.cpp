@@ -64,14 +64,18 @@ void add_compress_option(CLI::App& verb, io::Compression& compression) {
       ->option_text("NAME");
 }
 
+void add_depth_option(CLI::App& verb, std::string& depth, const std::string& integer_bits) {
+  verb.add_option("--depth", depth,
+                  "8, 16, half or float (default: " + integer_bits + " for PNG and TIFF, float for EXR)")
+      ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
+      ->type_name("BITS");
+}
+
 void add_picture_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits) {
   verb.add_option("--size", options.size, "side in pixels, or WIDTHxHEIGHT")
       ->capture_default_str()
       ->type_name("N");
-  verb.add_option("--depth", options.depth,
-                  "8, 16, half or float (default: " + integer_bits + " for PNG and TIFF, float for EXR)")
-      ->check(CLI::IsMember({"8", "16", "half", "float"}).description(""))
-      ->type_name("BITS");
+  add_depth_option(verb, options.depth, integer_bits);
   add_compress_option(verb, options.compression);
   add_device_options(verb, options.device);
   add_job_options(verb, options.threads, options.quiet, options.json);

@@ -37,6 +37,8 @@ void add_job_options(CLI::App& verb, int& threads, bool& quiet, bool& json);
 /// What the verbs that write images take.
 void add_compress_option(CLI::App& verb, io::Compression& compression);
 
+void add_depth_option(CLI::App& verb, std::string& depth, const std::string& integer_bits);
+
 /// How a picture is made and written. integer_bits is what the verb writes into PNG and TIFF unless told
 /// otherwise.
 void add_picture_options(CLI::App& verb, CommonOptions& options, const std::string& integer_bits);

@@ -58,4 +58,12 @@ fs::path OutputNames::file_for(const std::string& pattern, const fs::path& input
   return fs::path(folder_) / file;
 }
 
+fs::path file_of_level(const fs::path& file, int level) {
+  if (level == 0) return file;
+  fs::path name = file.stem();
+  name += fmt::format("_mip{}", level);
+  name += file.extension();
+  return file.parent_path() / name;
+}
+
 } // namespace surfgrad::cli

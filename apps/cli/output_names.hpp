@@ -32,4 +32,7 @@ class OutputNames {
   std::string folder_{};
 };
 
+/// The file of a mip level: rock_n.png, rock_n_mip1.png ...
+[[nodiscard]] std::filesystem::path file_of_level(const std::filesystem::path& file, int level);
+
 } // namespace surfgrad::cli

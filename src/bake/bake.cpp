@@ -90,7 +90,7 @@ class Bands {
  public:
   /// format  of the texels; null: a band holds the sums of slope_statistics, three channels of six beside
   /// each other
-  Bands(const stage::Stage& stage, const Options& options, const image::NormalFormat* format)
+  Bands(const stage::Stage& stage, const Options& options, const Format* format)
       : scene_(stage.scene()), options_(options), format_(format),
         empty_(format != nullptr ? format->flat() : std::vector<float>(6)),
         slot_(stage.slot_of(options.uv_set)),
@@ -166,7 +166,7 @@ class Bands {
     }
     float* const first = &band.texels[band.index(tile.x / options_.samples, 0)];
     const auto put = [&](std::size_t texel, vec3<float> normal) {
-      const image::NormalFormat::Encoded encoded = format_->encode(normal, first + own.texel_of[texel]);
+      const Format::Encoded encoded = format_->encode(normal, first + own.texel_of[texel]);
       ++own.counts.covered;
       own.counts.beyond_range += encoded.clamped ? 1 : 0;
       own.counts.steepest = std::max<double>(own.counts.steepest, encoded.steepest);
@@ -222,7 +222,7 @@ class Bands {
 
   const scene::Scene& scene_;
   const Options& options_;
-  const image::NormalFormat* format_;
+  const Format* format_;
   std::vector<float> empty_; ///< what a texel begins as
   std::size_t slot_;
   int tile_side_;
@@ -278,7 +278,7 @@ SlopeStatistics slope_statistics(scene::Scene scene, const Options& asked, const
 
 Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                   const Report& report) {
-  const image::NormalFormat format = format_of(options);
+  const Format format(options);
   const stage::Stage stage = stage_of(std::move(scene), options, report);
   const std::size_t slot = stage.slot_of(options.uv_set);
   require_something_inside(stage.surfaces(), slot, options, stage.scene().source);
@@ -316,7 +316,7 @@ Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandS
 
 Baked bake(scene::Scene scene, const Options& options, const Report& report) {
   Baked baked;
-  baked.map = image::make_image(options.width, options.height, format_of(options).channels(), options.depth);
+  baked.map = image::make_image(options.width, options.height, Format(options).channels(), options.depth);
   static_cast<Counts&>(baked) = bake_bands(std::move(scene), options, stage::into(baked.map), report);
   return baked;
 }

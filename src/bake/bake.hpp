@@ -2,7 +2,7 @@
 
 #include "bake/udim.hpp"
 #include "diagnostic/report.hpp"
-#include "image/normal_format.hpp"
+#include "image/image.hpp"
 #include "scene/scene.hpp"
 #include "stack/words.hpp"
 #include "stage/backend.hpp"
@@ -19,7 +19,12 @@ enum class Space {
   world,
 };
 
-using Encoding = image::NormalEncoding;
+/// How a texel stands for a normal n.
+enum class Encoding {
+  rgb,        ///< n / 2 + 1/2
+  rg,         ///< the first two of these; readers reconstruct z. Tangent space alone
+  derivative, ///< slopes, as a layer `derivative_map` reads them. Tangent space alone
+};
 
 struct Options {
   int width = 1024;

@@ -1,13 +1,14 @@
 #pragma once
 
-#include "image/dither.hpp"
 #include "stage/bands.hpp"
 
 #include <vector>
 
 namespace surfgrad::bake {
 
-/// image::Dithering of the bands of a map on their way to a sink.
+/// Rounds a map's values in [0, 1] to codes of 8 bits (code / 255), up or down by a mask of blue noise: their
+/// means over a few texels are those of the values, where rounding to the nearest code leaves terraces. Flat
+/// texels take the nearest code, all the same one. Works on bands on their way to a sink.
 class Dither {
  public:
   /// height  of the whole map
@@ -19,8 +20,9 @@ class Dither {
 
  private:
   int rows_left_;
-  image::Dithering dithering_;
+  std::vector<float> flat_;
   stage::BandSink take_;
+  std::vector<float> thresholds_; ///< in (0, 1), the mask's
   image::Image band_{};
 };
 

@@ -1,12 +1,54 @@
 #pragma once
 
 #include "bake/bake.hpp"
-#include "image/normal_format.hpp"
+
+#include <surfgrad/vec.hpp>
+
+#include <vector>
 
 namespace surfgrad::bake {
 
-/// How the texels of a bake stand for normals. Throws std::invalid_argument where the encoding cannot hold
-/// the space.
-[[nodiscard]] image::NormalFormat format_of(const Options& options);
+/// How a map's texels stand for normals, and back.
+class Format {
+ public:
+  /// Throws std::invalid_argument where the encoding cannot hold the space.
+  explicit Format(const Options& options);
+
+  [[nodiscard]] int channels() const { return channels_; }
+  /// The texel of the normal (0, 0, 1).
+  [[nodiscard]] std::vector<float> flat() const;
+
+  /// What encoding a normal met.
+  struct Encoded {
+    float steepest = 0;   ///< the larger of its slopes, where slopes are stored
+    bool clamped = false; ///< it is beyond the range; its direction is kept
+  };
+  /// texel  `channels` values
+  Encoded encode(vec3<float> normal, float* texel) const {
+    normal.y *= green_sign_;
+    if (encoding_ == Encoding::derivative) return encode_slopes(normal, texel);
+    texel[0] = 0.5f * normal.x + 0.5f;
+    texel[1] = 0.5f * normal.y + 0.5f;
+    if (channels_ == 3) texel[2] = encoding_ == Encoding::rgb ? 0.5f * normal.z + 0.5f : 1.0f;
+    return {};
+  }
+  /// Some multiple of the normal that every reader makes of a texel of a file.
+  ///
+  /// integers  the file holds codes of `most` + 1 values, scaled to [0, 1]
+  [[nodiscard]] vec3<double> decode(const float* texel, bool integers, double most) const;
+
+ private:
+  Encoded encode_slopes(vec3<float> normal, float* texel) const;
+
+  Encoding encoding_;
+  float green_sign_;
+  int channels_;
+  bool codes_; ///< slopes are stored as codes in [0, 1], not as they are
+  double range_;
+  stack::NeutralCode neutral_;
+  // What slopes are written as: neutral_value_ + value_a_slope_ * slope.
+  float neutral_value_ = 0;
+  float value_a_slope_ = 1;
+};
 
 } // namespace surfgrad::bake

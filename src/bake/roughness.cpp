@@ -109,7 +109,7 @@ image::Image anisotropy_map(const SlopeStatistics& slopes, int level, const Base
 }
 
 image::Image normal_level(const SlopeStatistics& slopes, int level, const Options& options) {
-  const image::NormalFormat format = format_of(options);
+  const Format format(options);
   const auto normal = [&](const SlopeMoments<double>& m, int /*x*/, int /*y*/, float* texel) {
     const vec3<double> n = normalize_or_zero(vec3<double>{m.mean.x, m.mean.y, 1});
     format.encode({static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}, texel);

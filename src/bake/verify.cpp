@@ -27,7 +27,7 @@ vec3<T> at(const vec3<float*>& array, int i) {
 class Comparison {
  public:
   Comparison(const scene::Scene& scene, const Options& options, const image::Image& map)
-      : scene_(scene), space_(options.space), format_(format_of(options)), map_(map),
+      : scene_(scene), space_(options.space), format_(options), map_(map),
         integers_(image::is_integer(map.depth)), most_code_(map.depth == image::Depth::unorm8 ? 255 : 65535) {
   }
 
@@ -83,7 +83,7 @@ class Comparison {
 
   const scene::Scene& scene_;
   Space space_;
-  image::NormalFormat format_;
+  Format format_;
   const image::Image& map_;
   bool integers_;
   double most_code_;

@@ -1,6 +1,5 @@
 #include "image/map.hpp"
 
-#include "image/normal_format.hpp"
 #include "image/pyramid.hpp"
 #include "image/slope_row.hpp"
 
@@ -39,6 +38,12 @@ vec3<double> decoded(const Image& image, std::size_t texel) {
   return finite ? m : vec3<double>{0, 0, 0};
 }
 
+NormalChannels believed(const Image& image, NormalChannels channels) {
+  if (channels != NormalChannels::automatic) return channels;
+  const bool two = image.channels <= 2 || (third_channel_is_constant(image) && other_channels_vary(image));
+  return two ? NormalChannels::xy : NormalChannels::xyz;
+}
+
 /// Of 8-bit files slopes need no more than 16 bits.
 TexelCode code_for(const Image& image, const TexelRows& slopes) {
   return image.depth == Depth::unorm8 ? code_for_slopes(slopes, image.width, image.height) : TexelCode{};
@@ -56,15 +61,9 @@ TexelRows rows_of_texels(const Image& image, std::size_t components, const Made&
 
 } // namespace
 
-NormalChannels believed_channels(const Image& image, NormalChannels channels) {
-  if (channels != NormalChannels::automatic) return channels;
-  const bool two = image.channels <= 2 || (third_channel_is_constant(image) && other_channels_vary(image));
-  return two ? NormalChannels::xy : NormalChannels::xyz;
-}
-
 SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up) {
   SlopeMap result;
-  result.channels = believed_channels(image, channels);
+  result.channels = believed(image, channels);
   const SlopeCode code{result.channels == NormalChannels::xy, green_up};
   std::vector<int> inward(static_cast<std::size_t>(image.height)); // of each row, however often it is made
   const TexelRows rows = [&](int y, float* row) {
@@ -81,7 +80,7 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
 
 SlopeMap make_encoded_map(const Image& image, NormalChannels channels, bool green_up) {
   SlopeMap result;
-  result.channels = believed_channels(image, channels);
+  result.channels = believed(image, channels);
   const std::size_t components = result.channels == NormalChannels::xy ? 2 : 3;
   std::vector<int> inward(static_cast<std::size_t>(image.height)); // of each row, however often it is made
   const TexelRows rows = [&](int y, float* normal) {
@@ -114,8 +113,12 @@ Map make_slope_moments(const Map& slopes) {
 }
 
 Map make_derivative_map(const Image& image, double range, bool green_up, NeutralCode neutral) {
-  const double most = !is_integer(image.depth) ? 0 : image.depth == Depth::unorm8 ? 255 : 65535;
-  const auto slope = [&](double value) { return slope_of_value(value, most, range, neutral); };
+  const double most = image.depth == Depth::unorm8 ? 255 : 65535;
+  const double half = neutral == NeutralCode::between ? most / 2 : (most - 1) / 2; // codes of `range`
+  const auto slope = [&](double value) {
+    if (!is_integer(image.depth)) return range * value;
+    return range * std::max(-1.0, (value * most - (most - half)) / half);
+  };
   const TexelRows rows = rows_of_texels(image, 2, [&](std::size_t i, float* texel) {
     const std::size_t t = i * static_cast<std::size_t>(image.channels);
     vec2<double> d{slope(image.texels[t]), slope(image.texels[t + 1])};

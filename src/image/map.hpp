@@ -67,9 +67,6 @@ inline constexpr int map_most_texels = 1 << 22;
 /// cannot be made.
 [[nodiscard]] std::int64_t words_of_map(int width, int height, int texel_words);
 
-/// Which channels `automatic` stands for, with this image; others stand for themselves.
-[[nodiscard]] NormalChannels believed_channels(const Image& image, NormalChannels channels);
-
 /// A map together with what its texels were like.
 struct SlopeMap {
   Map map{};                                     ///< of slopes, or of encoded normals

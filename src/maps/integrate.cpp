@@ -1,198 +1,209 @@
 #include "maps/integrate.hpp"
 
-#include "diagnostic/error.hpp"
 #include "image/parallel.hpp"
-#include "maps/lines.hpp"
+#include "maps/transform.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace surfgrad::maps {
 namespace {
 
-using image::Image;
+using Complex = std::complex<double>;
 
-constexpr double pi = std::numbers::pi;
-
-/// Tells of the parts of the work, and stops between them where asked to.
-class Parts {
- public:
-  Parts(const Report& report, int count) : report_(report), count_(count) {}
-  void done() {
-    if (report_.progress && !report_.progress(static_cast<double>(++done_) / count_)) throw Cancelled();
-  }
-
- private:
-  const Report& report_;
-  int count_;
-  int done_ = 0;
-};
-
-/// What a kernel does to the frequencies of an axis.
-struct Axis {
-  std::vector<double> frequency, along, across; ///< in radians a texel; of a kernel
-
-  Axis(const Weights& weights, std::size_t length) {
-    for (std::size_t k = 0; k < length; ++k) {
-      const double turns = static_cast<double>(k) / static_cast<double>(length);
-      frequency.push_back(2 * pi * (turns > 0.5 ? turns - 1 : turns));
-      along.push_back(response_along(weights, frequency.back()));
-      across.push_back(response_across(weights, frequency.back()));
+/// What a kernel makes of the waves of an axis of n texels, by their number of periods.
+struct Waves {
+  Waves(Kernel kernel, int n) {
+    for (int k = 0; k < n; ++k) {
+      const double w = 2 * std::numbers::pi * (2 * k <= n ? k : k - n) / n;
+      along.push_back(slope_along(kernel, w));
+      square.push_back(w * w);
+      across.push_back(share_across(kernel, w));
     }
   }
+  std::vector<double> along{};
+  std::vector<double> across{};
+  std::vector<double> square{}; ///< of the true slopes
 };
 
-// Waves of which a kernel sees less than this part are left out of the heights. Slopes that it did not make,
-// or that were rounded, would come out multiplied by more than its inverse.
-constexpr double least_seen = 1.0 / 32;
+// Waves whose slopes a kernel all but hides, those of nearly half a period a texel, would be made of noise,
+// and huge. Where it shows less than this share of them they fade, with the square of the share.
+constexpr double least_share = 1.0 / 3;
 
-/// Turns the spectrum of ds + i dt into that of the heights: of all h the one for which |i D h - d|^2 is
-/// least, D being the kernel's response.
-void divide_by_response(float* spectrum, std::size_t width, std::size_t height,
-                        const Integration& integration) {
-  const Weights weights = weights_of(integration.kernel);
-  const Axis s(weights, width);
-  const Axis t(weights, height);
-  const vec2<double> texels_a_unit{1 / integration.texel.x, 1 / integration.texel.y};
-  const auto number = [&](std::size_t x, std::size_t y) { return spectrum + 2 * (y * width + x); };
-  // A frequency and its negative together: ds and dt are real pictures, whose numbers at the two are
-  // conjugate.
-  image::in_parallel(height / 2 + 1, width, [&](std::size_t y) {
-    const std::size_t opposite_y = (height - y) % height;
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t opposite_x = (width - x) % width;
-      if (opposite_y == y && opposite_x < x) continue;
-      float* const here = number(x, y);
-      float* const there = number(opposite_x, opposite_y);
-      const Complex z{here[0], here[1]};
-      const Complex mirrored{there[0], -there[1]};
-      const Complex ds = 0.5 * (z + mirrored);
-      const Complex i_dt = 0.5 * (z - mirrored);
-      const Complex dt{i_dt.imag(), -i_dt.real()};
-      const vec2<double> seen =
-          texels_a_unit * vec2<double>{s.along[x] * t.across[y], t.along[y] * s.across[x]};
-      const vec2<double> there_is = texels_a_unit * vec2<double>{s.frequency[x], t.frequency[y]};
-      const double squared = dot(seen, seen);
-      const bool is_seen = squared > least_seen * least_seen * dot(there_is, there_is);
-      const Complex sum = seen.x * ds + seen.y * dt;
-      const Complex h = is_seen ? Complex{sum.imag() / squared, -sum.real() / squared} : Complex{};
-      here[0] = static_cast<float>(h.real());
-      here[1] = static_cast<float>(h.imag());
-      there[0] = static_cast<float>(h.real());
-      there[1] = static_cast<float>(-h.imag());
+/// What is left of a wave.
+///
+/// shown, steepness  squares of its slopes as a kernel shows them, and as they are
+double fade(double shown, double steepness) {
+  return std::min(1.0, shown / (least_share * least_share * steepness));
+}
+
+Integrated integrate_repeated(image::Image slopes, Kernel kernel) {
+  const int width = slopes.width;
+  const int height = slopes.height;
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  // Both slopes as one complex picture: their spectra are its symmetric halves.
+  std::vector<Complex> spectrum(at(0, height));
+  const float* const values = slopes.texels.floats().data();
+  for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] = {values[2 * i], values[2 * i + 1]};
+  slopes = {};
+  fourier(spectrum, width, height);
+  Integrated result;
+  const double texels = static_cast<double>(width) * height;
+  result.tilt = {spectrum[0].real() / texels, spectrum[0].imag() / texels};
+  double all = 0;
+  double left_out = 0;
+  const Waves s(kernel, width);
+  const Waves t(kernel, height);
+  for (int l = 0; l < height; ++l) {
+    for (int k = 0; k < width; ++k) {
+      const int k_back = (width - k) % width;
+      const int l_back = (height - l) % height;
+      if (at(k_back, l_back) < at(k, l)) continue; // done with its partner
+      const Complex a = spectrum[at(k, l)];
+      const Complex b = std::conj(spectrum[at(k_back, l_back)]);
+      const Complex p = 0.5 * (a + b);
+      const Complex q = Complex(0, -0.5) * (a - b);
+      const double along_s = s.along[static_cast<std::size_t>(k)] * t.across[static_cast<std::size_t>(l)];
+      const double along_t = t.along[static_cast<std::size_t>(l)] * s.across[static_cast<std::size_t>(k)];
+      const double square = along_s * along_s + along_t * along_t;
+      const double share = std::norm(p) + std::norm(q);
+      const double count = at(k_back, l_back) == at(k, l) ? 1 : 2;
+      Complex h = 0;
+      if (k != 0 || l != 0) {
+        // The sine of pi is no exact zero.
+        if (square > 1e-12) {
+          const double kept =
+              fade(square, s.square[static_cast<std::size_t>(k)] + t.square[static_cast<std::size_t>(l)]);
+          h = kept * Complex(0, -1) * (along_s * p + along_t * q) / square;
+        }
+        all += count * share;
+        left_out += count * (std::norm(p - Complex(0, along_s) * h) + std::norm(q - Complex(0, along_t) * h));
+      }
+      spectrum[at(k, l)] = h;
+      spectrum[at(k_back, l_back)] = std::conj(h);
     }
-  });
-}
-
-Image integrate_wrapped(Image slopes, const Integration& integration, const Report& report) {
-  const auto width = static_cast<std::size_t>(slopes.width);
-  const auto height = static_cast<std::size_t>(slopes.height);
-  float* const values = slopes.texels.floats().data();
-  const auto forward = [](Fourier& fourier, Complex* line) { fourier.transform(line); };
-  const auto backward = [](Fourier& fourier, Complex* line) { fourier.inverse(line); };
-  Parts parts(report, 5);
-  each_complex_row<Fourier>(values, width, height, forward);
-  parts.done();
-  each_column_pair<Fourier>(values, 2 * width, height, forward);
-  parts.done();
-  divide_by_response(values, width, height, integration);
-  parts.done();
-  each_column_pair<Fourier>(values, 2 * width, height, backward);
-  parts.done();
-  Image heights = image::make_image(slopes.width, slopes.height, 1, image::Depth::float32);
-  float* const result = heights.texels.floats().data();
-  each_complex_row<Fourier>(values, width, height, backward);
-  for (std::size_t i = 0; i < width * height; ++i) result[i] = values[2 * i];
-  parts.done();
-  return heights;
-}
-
-/// The rise from each place of a line to the next one, in `rise`, of slopes with this distance in memory.
-void rises(const float* slopes, std::size_t distance, std::size_t count, double texel,
-           std::vector<double>& rise) {
-  const auto slope = [&](std::size_t i) { return static_cast<double>(slopes[i * distance]); };
-  rise.resize(count); // the last one is not used
-  if (count < 2) return;
-  if (count == 2) {
-    rise[0] = 0.5 * texel * (slope(0) + slope(1));
-    return;
   }
-  rise[0] = texel / 12 * (5 * slope(0) + 8 * slope(1) - slope(2));
-  rise[count - 2] = texel / 12 * (5 * slope(count - 1) + 8 * slope(count - 2) - slope(count - 3));
-  for (std::size_t i = 1; i + 2 < count; ++i)
-    rise[i] = texel / 24 * (13 * (slope(i) + slope(i + 1)) - slope(i - 1) - slope(i + 2));
-}
-
-/// The right side of the Poisson equation: what flows out of each texel, along both axes by `weight`.
-Image divergence(const Image& slopes, vec2<double> texel, vec2<double> weight) {
-  const auto width = static_cast<std::size_t>(slopes.width);
-  const auto height = static_cast<std::size_t>(slopes.height);
-  Image result = image::make_image(slopes.width, slopes.height, 1, image::Depth::float32);
-  std::vector<float> scratch(slopes.texels.size());
-  const float* const values = slopes.texels.read(0, scratch.size(), scratch.data());
-  float* const sums = result.texels.floats().data();
-  image::in_parallel(height, width, [&](std::size_t y) {
-    thread_local std::vector<double> rise;
-    rises(values + 2 * y * width, 2, width, texel.x, rise);
-    for (std::size_t x = 0; x < width; ++x)
-      sums[y * width + x] =
-          static_cast<float>(weight.x * ((x + 1 < width ? rise[x] : 0.0) - (x > 0 ? rise[x - 1] : 0.0)));
-  });
-  image::in_parallel(width, 8 * height, [&](std::size_t x) {
-    thread_local std::vector<double> rise;
-    rises(values + 2 * x + 1, 2 * width, height, texel.y, rise);
-    for (std::size_t y = 0; y < height; ++y)
-      sums[y * width + x] = static_cast<float>(
-          sums[y * width + x] + weight.y * ((y + 1 < height ? rise[y] : 0.0) - (y > 0 ? rise[y - 1] : 0.0)));
-  });
+  result.not_integrable = all > 0 ? std::sqrt(left_out / all) : 0;
+  inverse_fourier(spectrum, width, height);
+  result.heights = image::make_image(width, height, 1, image::Depth::float32);
+  std::transform(spectrum.begin(), spectrum.end(), result.heights.texels.floats().begin(),
+                 [](const Complex& h) { return static_cast<float>(h.real()); });
   return result;
 }
 
-Image integrate_clamped(Image slopes, const Integration& integration, const Report& report) {
-  Parts parts(report, 6);
-  // Rises are compared as slopes: along the longer side of a texel the same error of the height counts less.
-  const vec2<double> weight{1 / (integration.texel.x * integration.texel.x),
-                            1 / (integration.texel.y * integration.texel.y)};
-  Image heights = divergence(slopes, integration.texel, weight);
-  slopes = {};
-  parts.done();
-  const auto width = static_cast<std::size_t>(heights.width);
-  const auto height = static_cast<std::size_t>(heights.height);
-  float* const values = heights.texels.floats().data();
-  const auto forward = [](Cosine& cosine, Complex* line) { cosine.transform(line); };
-  const auto backward = [](Cosine& cosine, Complex* line) { cosine.inverse(line); };
-  each_row_pair<Cosine>(values, width, height, forward);
-  parts.done();
-  each_column_pair<Cosine>(values, width, height, forward);
-  parts.done();
-  // The Laplacian of cosines.
-  const auto laplacian = [](std::size_t k, std::size_t count) {
-    const double half = std::sin(0.5 * pi * static_cast<double>(k) / static_cast<double>(count));
-    return -4 * half * half;
+/// The height from the k-th texel to the next: the integral of the slopes between their centres.
+///
+/// slope(k)  of n texels of a line
+template <class Slope>
+double step(const Slope& slope, int k, int n) {
+  const double near = slope(k) + slope(k + 1);
+  if (n < 3) return near / 2;
+  if (k == 0) return (5 * slope(0) + 8 * slope(1) - slope(2)) / 12;
+  if (k == n - 2) return (5 * slope(n - 1) + 8 * slope(n - 2) - slope(n - 3)) / 12;
+  return (13 * near - slope(k - 1) - slope(k + 2)) / 24;
+}
+
+/// Sums over the rows of a picture, the same whatever the number of threads.
+struct Sums {
+  double slopes = 0;
+  double squares = 0;
+  double left_out = 0;
+};
+
+Integrated integrate_clamped(image::Image slopes) {
+  const int width = slopes.width;
+  const int height = slopes.height;
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   };
-  image::in_parallel(height, width, [&](std::size_t y) {
-    const double along_t = weight.y * laplacian(y, height);
-    for (std::size_t x = 0; x < width; ++x) {
-      const double both = weight.x * laplacian(x, width) + along_t;
-      float& value = values[y * width + x];
-      value = x == 0 && y == 0 ? 0.0f : static_cast<float>(value / both);
+  const float* const slope = slopes.texels.floats().data();
+  const auto step_s = [&](int x, int y) {
+    return step([&](int k) { return double{slope[2 * at(k, y)]}; }, x, width);
+  };
+  const auto step_t = [&](int x, int y) {
+    return step([&](int k) { return double{slope[2 * at(x, k) + 1]}; }, y, height);
+  };
+  const auto for_rows = [&](const auto& body) {
+    image::in_parallel(static_cast<std::size_t>(height), static_cast<std::size_t>(width),
+                       [&](std::size_t y) { body(static_cast<int>(y)); });
+  };
+  // Steps into each texel less those out of it: minus the discrete Laplacian of the heights.
+  std::vector<double> values(at(0, height));
+  for_rows([&](int y) {
+    for (int x = 0; x < width; ++x) {
+      double sum = 0;
+      if (x > 0) sum += step_s(x - 1, y);
+      if (x + 1 < width) sum -= step_s(x, y);
+      if (y > 0) sum += step_t(x, y - 1);
+      if (y + 1 < height) sum -= step_t(x, y);
+      values[at(x, y)] = sum;
     }
   });
-  parts.done();
-  each_column_pair<Cosine>(values, width, height, backward);
-  parts.done();
-  each_row_pair<Cosine>(values, width, height, backward);
-  parts.done();
-  return heights;
+  cosine(values, width, height);
+  const auto eigenvalues = [](int n) {
+    std::vector<double> result;
+    for (int k = 0; k < n; ++k) result.push_back(2 - 2 * std::cos(std::numbers::pi * k / n));
+    return result;
+  };
+  const std::vector<double> of_s = eigenvalues(width);
+  const std::vector<double> of_t = eigenvalues(height);
+  for_rows([&](int l) {
+    for (int k = 0; k < width; ++k)
+      if (k != 0 || l != 0)
+        values[at(k, l)] /= of_s[static_cast<std::size_t>(k)] + of_t[static_cast<std::size_t>(l)];
+  });
+  values[0] = 0;
+  inverse_cosine(values, width, height);
+
+  std::vector<std::array<Sums, 2>> rows(static_cast<std::size_t>(height));
+  for_rows([&](int y) {
+    const auto add = [](Sums& sums, double wanted, double made) {
+      sums.slopes += wanted;
+      sums.squares += wanted * wanted;
+      sums.left_out += (wanted - made) * (wanted - made);
+    };
+    auto& [s, t] = rows[static_cast<std::size_t>(y)];
+    for (int x = 0; x < width; ++x) {
+      if (x + 1 < width) add(s, step_s(x, y), values[at(x + 1, y)] - values[at(x, y)]);
+      if (y + 1 < height) add(t, step_t(x, y), values[at(x, y + 1)] - values[at(x, y)]);
+    }
+  });
+  std::array<Sums, 2> sums{};
+  for (const auto& row : rows)
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      sums[axis].slopes += row[axis].slopes;
+      sums[axis].squares += row[axis].squares;
+      sums[axis].left_out += row[axis].left_out;
+    }
+  Integrated result;
+  const double steps_s = std::max(1.0, (width - 1.0) * height);
+  const double steps_t = std::max(1.0, width * (height - 1.0));
+  result.tilt = {sums[0].slopes / steps_s, sums[1].slopes / steps_t};
+  const double all = sums[0].squares - steps_s * result.tilt.x * result.tilt.x + sums[1].squares -
+                     steps_t * result.tilt.y * result.tilt.y;
+  const double left_out = sums[0].left_out + sums[1].left_out;
+  // A plane has nothing but its mean slope, up to rounding.
+  const bool varies = all > 1e-12 * (sums[0].squares + sums[1].squares);
+  result.not_integrable = varies ? std::sqrt(left_out / all) : 0;
+  result.heights = image::make_image(width, height, 1, image::Depth::float32);
+  std::transform(values.begin(), values.end(), result.heights.texels.floats().begin(),
+                 [](double h) { return static_cast<float>(h); });
+  return result;
 }
 
 } // namespace
 
-Image heights_of_slopes(Image slopes, const Integration& integration, const Report& report) {
-  return integration.borders == Borders::wrap ? integrate_wrapped(std::move(slopes), integration, report)
-                                              : integrate_clamped(std::move(slopes), integration, report);
+Integrated integrate(image::Image slopes, Kernel kernel, Border border) {
+  return border == Border::repeat ? integrate_repeated(std::move(slopes), kernel)
+                                  : integrate_clamped(std::move(slopes));
 }
 
 } // namespace surfgrad::maps

@@ -1,14 +1,6 @@
 #pragma once
 
-// Internal to src/maps: transforms of all rows or columns of a picture of floats, in place.
-//
-// They are computed in double and kept in float, so that every number is rounded relative to itself. Each op
-// is op(transform, line), with a line of complex numbers and a Transform of its length.
-
 #include "image/parallel.hpp"
-#include "maps/fourier.hpp"
-
-#include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -16,71 +8,65 @@
 
 namespace surfgrad::maps {
 
-/// A transform costs about as much a number as this many texels of other work.
-inline constexpr std::size_t transform_texels = 16;
+/// The rows or the columns of a picture.
+enum class Axis { s, t };
 
-/// Rows of complex numbers, each two floats.
-template <class Transform, class Op>
-void each_complex_row(float* values, std::size_t width, std::size_t height, const Op& op) {
-  tbb::enumerable_thread_specific<Transform> transforms(width);
-  image::in_parallel(height, transform_texels * width, [&](std::size_t y) {
-    thread_local std::vector<Complex> line;
-    line.resize(width);
-    float* const row = values + 2 * y * width;
-    for (std::size_t x = 0; x < width; ++x) line[x] = {row[2 * x], row[2 * x + 1]};
-    op(transforms.local(), line.data());
-    for (std::size_t x = 0; x < width; ++x) {
-      row[2 * x] = static_cast<float>(line[x].real());
-      row[2 * x + 1] = static_cast<float>(line[x].imag());
-    }
+/// Lines that are worked on together: as many as fill a cache line, so that columns are read by whole ones.
+inline constexpr std::size_t lanes = 8;
+
+/// Some neighbouring lines, value by value: the k-th values of all lie together. Those beyond the last line
+/// of a picture hold zeros.
+template <class T>
+class LineBlock {
+ public:
+  explicit LineBlock(std::size_t length) : values_(length * lanes) {}
+  [[nodiscard]] std::size_t length() const { return values_.size() / lanes; }
+  [[nodiscard]] T* operator[](std::size_t k) { return values_.data() + k * lanes; }
+  [[nodiscard]] const T* operator[](std::size_t k) const { return values_.data() + k * lanes; }
+
+ private:
+  std::vector<T> values_;
+};
+
+/// Where the lines of a picture of `stride` values a texel lie.
+struct Lines {
+  std::size_t length; ///< texels of a line
+  std::size_t count;
+  std::size_t along;  ///< from a texel to the next one of its line
+  std::size_t across; ///< from a line to the next
+};
+
+[[nodiscard]] inline Lines lines_of(int width, int height, Axis axis, std::size_t stride = 1) {
+  const auto w = static_cast<std::size_t>(width);
+  const auto h = static_cast<std::size_t>(height);
+  return axis == Axis::s ? Lines{w, h, stride, w * stride} : Lines{h, w, w * stride, stride};
+}
+
+/// Calls body(block, first line, lines in it) for all lines, some at a time, on all threads. Blocks are read
+/// with load() and written with store() below.
+template <class Body>
+void for_blocks_of_lines(const Lines& lines, const Body& body) {
+  const std::size_t blocks = (lines.count + lanes - 1) / lanes;
+  image::in_parallel(blocks, lines.length * lanes, [&](std::size_t block) {
+    const std::size_t first = block * lanes;
+    body(first, std::min(lanes, lines.count - first));
   });
 }
 
-/// Rows of real numbers, two of them as the parts of a line.
-template <class Transform, class Op>
-void each_row_pair(float* values, std::size_t width, std::size_t height, const Op& op) {
-  tbb::enumerable_thread_specific<Transform> transforms(width);
-  image::in_parallel((height + 1) / 2, 2 * transform_texels * width, [&](std::size_t pair) {
-    thread_local std::vector<Complex> line;
-    line.resize(width);
-    float* const row = values + 2 * pair * width;
-    float* const next = 2 * pair + 1 < height ? row + width : nullptr;
-    for (std::size_t x = 0; x < width; ++x) line[x] = {row[x], next != nullptr ? next[x] : 0.0f};
-    op(transforms.local(), line.data());
-    for (std::size_t x = 0; x < width; ++x) {
-      row[x] = static_cast<float>(line[x].real());
-      if (next != nullptr) next[x] = static_cast<float>(line[x].imag());
-    }
-  });
+template <class T, class Value>
+void load(const Lines& lines, const Value* values, std::size_t first, std::size_t count,
+          LineBlock<T>& block) {
+  for (std::size_t k = 0; k < lines.length; ++k)
+    for (std::size_t l = 0; l < count; ++l)
+      block[k][l] = static_cast<T>(values[(first + l) * lines.across + k * lines.along]);
 }
 
-/// Columns of two neighbouring floats: complex numbers, or two columns of real ones.
-template <class Transform, class Op>
-void each_column_pair(float* values, std::size_t row_floats, std::size_t height, const Op& op) {
-  constexpr std::size_t together = 8; // pairs that fill a cache line
-  tbb::enumerable_thread_specific<Transform> transforms(height);
-  const std::size_t pairs = (row_floats + 1) / 2;
-  image::in_parallel(
-      (pairs + together - 1) / together, transform_texels * together * height, [&](std::size_t block) {
-        thread_local std::vector<Complex> lines;
-        lines.resize(together * height);
-        const std::size_t first = block * together;
-        const std::size_t count = std::min(together, pairs - first);
-        const auto has_second = [&](std::size_t i) { return 2 * (first + i) + 1 < row_floats; };
-        for (std::size_t y = 0; y < height; ++y) {
-          const float* const row = values + y * row_floats + 2 * first;
-          for (std::size_t i = 0; i < count; ++i)
-            lines[i * height + y] = {row[2 * i], has_second(i) ? row[2 * i + 1] : 0.0f};
-        }
-        for (std::size_t i = 0; i < count; ++i) op(transforms.local(), lines.data() + i * height);
-        for (std::size_t y = 0; y < height; ++y) {
-          float* const row = values + y * row_floats + 2 * first;
-          for (std::size_t i = 0; i < count; ++i) {
-            row[2 * i] = static_cast<float>(lines[i * height + y].real());
-            if (has_second(i)) row[2 * i + 1] = static_cast<float>(lines[i * height + y].imag());
-          }
-        }
-      });
+template <class T, class Value>
+void store(const Lines& lines, const LineBlock<T>& block, std::size_t first, std::size_t count,
+           Value* values) {
+  for (std::size_t k = 0; k < lines.length; ++k)
+    for (std::size_t l = 0; l < count; ++l)
+      values[(first + l) * lines.across + k * lines.along] = static_cast<Value>(block[k][l]);
 }
 
 } // namespace surfgrad::maps

@@ -2,7 +2,7 @@
 
 #include "bake/dither.hpp"
 
-#include "image/blue_noise.hpp"
+#include "bake/blue_noise.hpp"
 #include "stage/bands.hpp"
 #include "support/random.hpp"
 
@@ -18,9 +18,6 @@
 
 namespace surfgrad::bake {
 namespace {
-
-using image::blue_noise;
-using image::blue_noise_side;
 
 constexpr int side = blue_noise_side;
 constexpr int area = side * side;

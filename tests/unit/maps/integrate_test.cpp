@@ -1,141 +1,143 @@
-// Slopes to heights: exact inverses where there are, nearest heights where there are none.
+// Heights of slopes, and back.
 
 #include "maps/integrate.hpp"
 
-#include "diagnostic/error.hpp"
-#include "maps/heights.hpp"
 #include "support/random.hpp"
-#include "support/worst.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 namespace surfgrad::maps {
 namespace {
 
-using image::Image;
+using surfgrad::test::Random;
 
-constexpr Kernel kernels[] = {Kernel::central, Kernel::sobel, Kernel::scharr, Kernel::bspline};
-constexpr double pi = std::numbers::pi;
-// Even and odd, powers of two and primes.
-const std::vector<std::pair<int, int>> sizes{{16, 16}, {31, 48}, {37, 5}, {1, 9}, {8, 1}, {2, 3}};
-
-Image random_heights(test::Random& random, int width, int height) {
-  Image heights = image::make_image(width, height, 1, image::Depth::float32);
-  for (float& h : heights.texels.floats()) h = static_cast<float>(random.uniform());
+/// A smooth surface that repeats: waves of at least four texels a period.
+image::Image waves(Random& random, int width, int height) {
+  image::Image heights = image::make_image(width, height, 1, image::Depth::float32);
+  for (int n = 0; n < 20; ++n) {
+    const int k = static_cast<int>(random.uniform(0, width / 4.0));
+    const int l = static_cast<int>(random.uniform(0, height / 4.0)) * (n % 2 == 0 ? 1 : -1);
+    const double phase = random.uniform(0, 6);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        heights.at(x, y, 0) += static_cast<float>(
+            0.1 * std::sin(2 * std::numbers::pi * (1.0 * k * x / width + 1.0 * l * y / height) + phase));
+  }
   return heights;
 }
 
-double mean_of(const Image& heights) {
+void remove_mean(image::Image& heights) {
   double sum = 0;
-  for (std::size_t i = 0; i < heights.texels.size(); ++i) sum += heights.texels[i];
-  return sum / static_cast<double>(heights.texels.size());
+  for (const float h : heights.texels.floats()) sum += h;
+  for (float& h : heights.texels.floats())
+    h -= static_cast<float>(sum / static_cast<double>(heights.texels.size()));
 }
 
-TEST(Integration, WrappedHeightsComeBackFromTheSlopesThatAKernelMadeOfThem) {
-  test::Random random(20264);
-  test::Worst worst("heights after a round trip, seed 20264");
-  for (const Kernel kernel : kernels)
-    for (const auto& [width, height] : sizes)
-      for (const vec2<double> texel : {vec2<double>{1, 1}, vec2<double>{0.25, 3}}) {
-        const Relief relief{.slope_scale = {1 / texel.x, 1 / texel.y}, .kernel = kernel};
-        const Integration integration{.kernel = kernel, .texel = texel};
-        // What the kernel hardly sees of random heights goes the first time.
-        const Image seen =
-            heights_of_slopes(slopes_of_heights(random_heights(random, width, height), relief), integration);
-        EXPECT_NEAR(mean_of(seen), 0, 1e-6);
-        const Image again = heights_of_slopes(slopes_of_heights(seen, relief), integration);
-        for (std::size_t i = 0; i < again.texels.size(); ++i)
-          // Each of four passes rounds to float; waves that are seen least grow 32-fold with their rounding.
-          worst.add(again.texels[i], seen.texels[i], 32 * 4 * 0x1p-24, static_cast<long>(i));
-      }
+double worst_difference(const image::Image& a, const image::Image& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.texels.size(); ++i)
+    worst = std::max(worst, std::abs(double{a.texels[i]} - b.texels[i]));
+  return worst;
 }
 
-TEST(Integration, WrappedHeightsOfASplineComeBackWhole) {
-  // Of odd sides, so short, the spline sees every wave but the mean.
-  test::Random random(20265);
-  const Image heights = random_heights(random, 27, 35);
-  const Image again =
-      heights_of_slopes(slopes_of_heights(heights, {.kernel = Kernel::bspline}), {.kernel = Kernel::bspline});
-  test::Worst worst("whole heights after a round trip, seed 20265");
-  const double mean = mean_of(heights);
-  for (std::size_t i = 0; i < again.texels.size(); ++i)
-    worst.add(again.texels[i], heights.texels[i] - mean, 32 * 4 * 0x1p-24, static_cast<long>(i)); // as above
+TEST(Integrate, RepeatedHeightsComeBackFromTheirSlopes) {
+  Random random(1805);
+  for (const auto& [width, height] : {std::pair{32, 32}, {30, 17}, {64, 8}})
+    for (const Kernel kernel : {Kernel::central, Kernel::sobel, Kernel::scharr, Kernel::bspline}) {
+      image::Image heights = waves(random, width, height);
+      remove_mean(heights);
+      const Integrated made =
+          integrate(slopes_of_heights(heights, kernel, Border::repeat, 1), kernel, Border::repeat);
+      const double worst = worst_difference(made.heights, heights);
+      std::printf("  %dx%d: worst %.2g, not integrable %.2g\n", width, height, worst, made.not_integrable);
+      EXPECT_LT(worst, 2e-5); // float slopes of about 1, 2^-24 each, over paths of up to 64 texels
+      EXPECT_LT(made.not_integrable, 1e-5);
+    }
 }
 
-TEST(Integration, ClampedHeightsOfThirdDegreeComeBackThemselves) {
-  // Within: the cubic through four slopes. Borders: parabolas, and slopes of third degree are parabolas.
+TEST(Integrate, ClampedHeightsComeBackWithTheirTilt) {
+  // A polynomial of degree 3, which the steps between texels are exact for: slopes are given by its
+  // derivative.
   const auto h = [](double x, double y) {
-    return 0.3 * x - 0.7 * y + 0.2 * x * x - 0.4 * x * y + 0.1 * x * x * x - 0.2 * y * y * y;
+    return 0.002 * x * x * x - 0.03 * x * y + 0.01 * y * y + 0.7 * x - y;
   };
-  const auto slope = [](double x, double y) {
-    return vec2<double>{0.3 + 0.4 * x - 0.4 * y + 0.3 * x * x, -0.7 - 0.4 * x - 0.6 * y * y};
-  };
-  test::Worst worst("heights of third degree");
-  for (const auto& [width, height] : std::vector<std::pair<int, int>>{{16, 16}, {31, 37}, {3, 5}, {40, 3}}) {
-    const vec2<double> texel{2.0 / width, 3.0 / height};
-    Image slopes = image::make_image(width, height, 2, image::Depth::float32);
-    std::vector<double> expected;
-    double mean = 0;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const vec2<double> at{(x + 0.5) * texel.x - 1, (y + 0.5) * texel.y - 1.5};
-        slopes.at(x, y, 0) = static_cast<float>(slope(at.x, at.y).x);
-        slopes.at(x, y, 1) = static_cast<float>(slope(at.x, at.y).y);
-        expected.push_back(h(at.x, at.y));
-        mean += expected.back() / (width * height);
-      }
-    const Image heights = heights_of_slopes(slopes, {.borders = Borders::clamp, .texel = texel});
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      // Slopes of up to 4 are rounded to float, over a path of 3; four passes round again.
-      worst.add(heights.texels[i], expected[i] - mean, 3 * 4 * 4 * 0x1p-24, width);
-  }
+  image::Image slopes = image::make_image(21, 14, 2, image::Depth::float32);
+  image::Image heights = image::make_image(21, 14, 1, image::Depth::float32);
+  for (int y = 0; y < 14; ++y)
+    for (int x = 0; x < 21; ++x) {
+      slopes.at(x, y, 0) = static_cast<float>(0.006 * x * x - 0.03 * y + 0.7);
+      slopes.at(x, y, 1) = static_cast<float>(-0.03 * x + 0.02 * y - 1);
+      heights.at(x, y, 0) = static_cast<float>(h(x, y));
+    }
+  remove_mean(heights);
+  const Integrated made = integrate(slopes, Kernel::bspline, Border::clamp);
+  const double worst = worst_difference(made.heights, heights);
+  std::printf("  worst %.2g of heights up to 30, not integrable %.2g\n", worst, made.not_integrable);
+  EXPECT_LT(worst, 3e-5); // floats of up to 30 are 2e-6 apart, and slopes are floats too
+  EXPECT_LT(made.not_integrable, 1e-5);
 }
 
-TEST(Integration, IsTheNearestWhereSlopesHaveACurl) {
-  // The rotation (-y, x) has no heights at all; with a gradient added to it only that is left.
-  constexpr int side = 24;
-  Image slopes = image::make_image(side, side, 2, image::Depth::float32);
+TEST(Integrate, LeavesOutWhatNoSurfaceHas) {
+  // A surface, and a field of slopes that goes round in circles; it is as large and has no part in the
+  // heights.
+  Random random(1806);
+  constexpr int side = 32;
+  image::Image heights = waves(random, side, side);
+  remove_mean(heights);
+  image::Image slopes = slopes_of_heights(heights, Kernel::central, Border::repeat, 1);
+  const image::Image potential =
+      slopes_of_heights(waves(random, side, side), Kernel::central, Border::repeat, 1);
+  double of_surface = 0;
+  double of_curl = 0;
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
-      const double u = 2 * pi * x / side, v = 2 * pi * y / side;
-      // The curl of cos(u) cos(v), and the gradient of sin(u + v): both in terms of the spline's response.
-      const double d = response_along(weights_of(Kernel::bspline), 2 * pi / side);
-      slopes.at(x, y, 0) = static_cast<float>(d * (-std::cos(u) * std::sin(v) + std::cos(u + v)));
-      slopes.at(x, y, 1) = static_cast<float>(d * (std::sin(u) * std::cos(v) + std::cos(u + v)));
+      for (int c = 0; c < 2; ++c) {
+        of_surface += slopes.at(x, y, c) * slopes.at(x, y, c);
+        of_curl += potential.at(x, y, c) * potential.at(x, y, c);
+      }
+      slopes.at(x, y, 0) += potential.at(x, y, 1);
+      slopes.at(x, y, 1) -= potential.at(x, y, 0);
     }
-  const Image heights = heights_of_slopes(slopes, {.kernel = Kernel::bspline});
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      EXPECT_NEAR(heights.at(x, y, 0), std::sin(2 * pi * (x + y) / side), 1e-6); // a few roundings to float
+  const Integrated made = integrate(slopes, Kernel::central, Border::repeat);
+  EXPECT_LT(worst_difference(made.heights, heights), 2e-5);
+  // Both fields are perpendicular: their squares add up.
+  EXPECT_NEAR(made.not_integrable, std::sqrt(of_curl / (of_curl + of_surface)), 1e-4);
 }
 
-TEST(Integration, StaysLevelWhereItWrapsAndRisesWhereItDoesNot) {
-  constexpr int side = 16;
-  Image slopes = image::make_image(side, side, 2, image::Depth::float32);
-  for (std::size_t i = 0; i < slopes.texels.size(); i += 2) slopes.texels[i] = 0.5f;
-  const Image wrapped = heights_of_slopes(slopes, {});
-  const Image clamped = heights_of_slopes(slopes, {.borders = Borders::clamp});
-  for (int x = 0; x < side; ++x) {
-    EXPECT_NEAR(wrapped.at(x, 3, 0), 0, 1e-6);
-    EXPECT_NEAR(clamped.at(x, 3, 0), 0.5 * (x - 7.5), 1e-5);
-  }
+TEST(Integrate, MeanSlopeIsTheTiltAndRepeatedHeightsHaveNone) {
+  image::Image slopes = image::make_image(16, 16, 2, image::Depth::float32);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      slopes.at(x, y, 0) = 0.5f;
+      slopes.at(x, y, 1) = -0.25f;
+    }
+  const Integrated repeated = integrate(slopes, Kernel::bspline, Border::repeat);
+  EXPECT_NEAR(repeated.tilt.x, 0.5, 1e-7);
+  EXPECT_NEAR(repeated.tilt.y, -0.25, 1e-7);
+  for (std::size_t i = 0; i < repeated.heights.texels.size(); ++i)
+    EXPECT_NEAR(repeated.heights.texels[i], 0, 1e-7);
+  const Integrated clamped = integrate(slopes, Kernel::bspline, Border::clamp);
+  EXPECT_NEAR(clamped.tilt.x, 0.5, 1e-7);
+  EXPECT_NEAR(clamped.heights.at(15, 3, 0) - clamped.heights.at(0, 3, 0), 7.5, 1e-5);
+  EXPECT_EQ(clamped.not_integrable, 0);
+  EXPECT_EQ(repeated.not_integrable, 0);
 }
 
-TEST(Integration, StopsWhenAskedTo) {
-  for (const Borders borders : {Borders::wrap, Borders::clamp}) {
-    int calls = 0;
-    const Report report{[&](double) { return ++calls < 3; }, {}};
-    EXPECT_THROW((void)heights_of_slopes(image::make_image(8, 8, 2, image::Depth::float32),
-                                         {.borders = borders}, report),
-                 Cancelled);
-    EXPECT_EQ(calls, 3);
-  }
+TEST(Integrate, SingleTexelsRowsAndColumnsHaveHeights) {
+  for (const Border border : {Border::repeat, Border::clamp})
+    for (const auto& [width, height] : {std::pair{1, 1}, {5, 1}, {1, 4}, {2, 2}}) {
+      image::Image slopes = image::make_image(width, height, 2, image::Depth::float32);
+      for (float& s : slopes.texels.floats()) s = 1;
+      const Integrated made = integrate(slopes, Kernel::bspline, border);
+      for (std::size_t i = 0; i < made.heights.texels.size(); ++i)
+        EXPECT_TRUE(std::isfinite(made.heights.texels[i]));
+      if (border == Border::clamp) {
+        EXPECT_NEAR(made.heights.at(width - 1, 0, 0) - made.heights.at(0, 0, 0), width - 1, 1e-5);
+      }
+    }
 }
 
 } // namespace

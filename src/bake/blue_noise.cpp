@@ -1,9 +1,9 @@
-#include "image/blue_noise.hpp"
+#include "bake/blue_noise.hpp"
 
 #include <algorithm>
 #include <vector>
 
-namespace surfgrad::image {
+namespace surfgrad::bake {
 namespace {
 
 constexpr int side = blue_noise_side;
@@ -107,4 +107,4 @@ const BlueNoise& blue_noise() {
   return ranks;
 }
 
-} // namespace surfgrad::image
+} // namespace surfgrad::bake

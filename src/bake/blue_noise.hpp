@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace surfgrad::image {
+namespace surfgrad::bake {
 
 /// Texels along a side of the tile of blue noise.
 inline constexpr int blue_noise_side = 64;
@@ -15,4 +15,4 @@ using BlueNoise = std::array<std::uint16_t, blue_noise_side * blue_noise_side>;
 /// same on every machine, by the void-and-cluster method (Ulichney 1993).
 [[nodiscard]] const BlueNoise& blue_noise();
 
-} // namespace surfgrad::image
+} // namespace surfgrad::bake

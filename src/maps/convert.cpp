@@ -1,0 +1,204 @@
+#include "maps/convert.hpp"
+
+#include "bake/dither.hpp"
+#include "image/parallel.hpp"
+#include "maps/integrate.hpp"
+#include "maps/resample.hpp"
+#include "stage/bands.hpp"
+
+#include <surfgrad/moments.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace surfgrad::maps {
+namespace {
+
+// Two centimetres a metre: what plaster, bark or brickwork rises by.
+constexpr double usual_relief = 0.02;
+
+/// Whether the vectors of the texels stay what they are.
+bool only_rearranges(const image::Image& map, const Conversion& c) {
+  if (c.retile || c.width > 0 || c.from.kind != Kind::normal || c.to.kind != Kind::normal) return false;
+  const auto components = [](const Form& form, int without) {
+    return form.channels.count > 0 ? form.channels.count : without;
+  };
+  return components(c.from, std::min(map.channels, 3)) == components(c.to, 3);
+}
+
+/// Heights from 0 to 1, and what they were multiplied with.
+double fill_range(std::vector<float>& heights) {
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const float lowest = *low;
+  const float range = *high - lowest;
+  for (float& h : heights) h = range > 0 ? (h - lowest) / range : 0.5f;
+  return range > 0 ? 1 / double{range} : 1;
+}
+
+/// Subtracts the mean of each channel. Returns those of the first two.
+vec2<double> remove_mean(image::Image& slopes) {
+  std::vector<float>& values = slopes.texels.floats();
+  vec2<double> sum{0, 0};
+  for (std::size_t i = 0; i < values.size(); i += 2) sum = sum + vec2<double>{values[i], values[i + 1]};
+  const vec2<double> mean = (2.0 / static_cast<double>(values.size())) * sum;
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    values[i] = static_cast<float>(values[i] - mean.x);
+    values[i + 1] = static_cast<float>(values[i + 1] - mean.y);
+  }
+  return mean;
+}
+
+/// Rounds to codes of 8 bits.
+image::Image dithered(const image::Image& map, const std::vector<float>& flat) {
+  image::Image result = image::make_image(map.width, map.height, map.channels, map.depth);
+  bake::Dither(map.height, flat, stage::into(result)).add(map);
+  return result;
+}
+
+/// Slopes, their squares and their product: what averages to moments.
+image::Image squares_of(const image::Image& slopes) {
+  image::Image result = image::make_image(slopes.width, slopes.height, 5, image::Depth::float32);
+  std::vector<float>& to = result.texels.floats();
+  for (std::size_t i = 0, k = 0; i < slopes.texels.size(); i += 2, k += 5) {
+    const float s = slopes.texels[i];
+    const float t = slopes.texels[i + 1];
+    to[k] = s;
+    to[k + 1] = t;
+    to[k + 2] = s * s;
+    to[k + 3] = t * t;
+    to[k + 4] = s * t;
+  }
+  return result;
+}
+
+image::Image roughness_of(const image::Image& moments, const bake::BaseRoughness& base) {
+  image::Image result = image::make_image(moments.width, moments.height, 1, image::Depth::float32);
+  image::in_parallel(static_cast<std::size_t>(moments.height), static_cast<std::size_t>(moments.width),
+                     [&, to = result.texels.floats().data()](std::size_t row) {
+                       const int y = static_cast<int>(row);
+                       for (int x = 0; x < moments.width; ++x) {
+                         const auto m = [&](int c) { return double{moments.at(x, y, c)}; };
+                         const SlopeMoments<double> slopes{{m(0), m(1)}, {m(2), m(3)}, m(4)};
+                         const double alpha = base.alpha(x, y, moments.width, moments.height);
+                         to[result.index(x, y)] =
+                             static_cast<float>(std::sqrt(roughness_from_moments(alpha, slopes)));
+                       }
+                     });
+  return result;
+}
+
+/// Sides of a mip level, or of the map itself.
+struct Size {
+  int width, height;
+};
+
+class Converter {
+ public:
+  Converter(const Conversion& conversion, const std::filesystem::path& file) : c_(conversion), file_(file) {}
+
+  Converted run(const image::Image& map) {
+    size_ = c_.width > 0 ? Size{c_.width, c_.height} : Size{map.width, map.height};
+    if (only_rearranges(map, c_)) {
+      result_.map = finished(rearranged(map, c_.from, c_.to, file_));
+      result_.is_rearranged = true;
+    }
+    if (!result_.is_rearranged || c_.mips || c_.base_roughness) {
+      if (c_.from.kind == Kind::height) {
+        from_heights(read_heights(map, c_.from, file_));
+      } else {
+        Slopes slopes = read_slopes(map, c_.from, file_);
+        result_.inward = slopes.inward;
+        from_slopes(std::move(slopes.map));
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] image::Image finished(image::Image map) const {
+    map.depth = c_.depth;
+    const bool dithers = c_.dither && c_.depth == image::Depth::unorm8;
+    return dithers ? dithered(map, flat_texel(c_.to, c_.depth)) : map;
+  }
+
+  [[nodiscard]] std::vector<Size> levels() const {
+    std::vector<Size> sizes{size_};
+    while (c_.mips && (sizes.back().width > 1 || sizes.back().height > 1))
+      sizes.push_back({std::max(1, sizes.back().width / 2), std::max(1, sizes.back().height / 2)});
+    return sizes;
+  }
+
+  void from_heights(image::Image heights) {
+    if (c_.to.kind == Kind::height) {
+      take_levels(std::move(heights),
+                  [&](const image::Image& level) { return write_heights(level, c_.to, c_.depth); });
+      return;
+    }
+    result_.slope_scale = c_.slope_scale.value_or(usual_relief * heights.width);
+    from_slopes(slopes_of_heights(std::move(heights), c_.kernel, c_.border, result_.slope_scale));
+  }
+
+  void from_slopes(image::Image slopes) {
+    if (c_.retile) result_.tilt = remove_mean(slopes);
+    if (c_.to.kind == Kind::height) {
+      to_heights(resampled(std::move(slopes), size_.width, size_.height, c_.border));
+      return;
+    }
+    if (c_.base_roughness) {
+      const image::Image squares = squares_of(slopes);
+      for (const Size& size : levels())
+        result_.roughness.push_back(
+            roughness_of(resampled(squares, size.width, size.height, c_.border), *c_.base_roughness));
+    }
+    take_levels(std::move(slopes),
+                [&](const image::Image& level) { return write_slopes(level, c_.to, c_.depth); });
+  }
+
+  void to_heights(image::Image slopes) {
+    Integrated integrated = integrate(std::move(slopes), c_.kernel, c_.border);
+    result_.not_integrable = integrated.not_integrable;
+    if (c_.border == Border::repeat) result_.tilt = integrated.tilt;
+    std::vector<float>& heights = integrated.heights.texels.floats();
+    if (c_.slope_scale) {
+      result_.slope_scale = *c_.slope_scale;
+      for (float& h : heights) h = static_cast<float>(0.5 + h / *c_.slope_scale);
+    } else {
+      result_.slope_scale = 1 / fill_range(heights);
+    }
+    take_levels(std::move(integrated.heights),
+                [&](const image::Image& level) { return write_heights(level, c_.to, c_.depth); });
+  }
+
+  /// write(picture) makes a Written of a picture in each size.
+  template <class Write>
+  void take_levels(image::Image picture, const Write& write) {
+    const std::vector<Size> sizes = levels();
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (i == 0 && result_.is_rearranged) continue;
+      const bool is_last = i + 1 == sizes.size();
+      Written written = write(
+          resampled(is_last ? std::move(picture) : picture, sizes[i].width, sizes[i].height, c_.border));
+      if (i == 0) {
+        result_.map = finished(std::move(written.map));
+        result_.clamped = written.clamped;
+        result_.steepest = written.steepest;
+      } else {
+        result_.mips.push_back(finished(std::move(written.map)));
+      }
+    }
+  }
+
+  const Conversion& c_;
+  const std::filesystem::path& file_;
+  Size size_{};
+  Converted result_{};
+};
+
+} // namespace
+
+Converted convert(const image::Image& map, const Conversion& conversion, const std::filesystem::path& file) {
+  return Converter(conversion, file).run(map);
+}
+
+} // namespace surfgrad::maps

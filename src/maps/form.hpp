@@ -1,0 +1,85 @@
+#pragma once
+
+#include "image/image.hpp"
+#include "stack/words.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace surfgrad::maps {
+
+/// What the texels of a map are.
+enum class Kind {
+  height,
+  normal,     ///< tangent-space normals n, as n / 2 + 1/2
+  derivative, ///< slopes
+};
+
+/// Channels of a file by their numbers, r to a as 0 to 3.
+struct Channels {
+  int count = 0; ///< up to 3; 0: not said
+  std::array<int, 3> channel{};
+};
+
+/// Up to three different letters of r, g, b and a. Throws std::invalid_argument for anything else.
+[[nodiscard]] Channels channels_of(std::string_view letters);
+
+/// How a file holds them.
+struct Form {
+  Kind kind = Kind::normal;
+  /// Those of x and y, of x, y and z, or of the height. Not said: in order; z is then reconstructed where a
+  /// map that is read has two channels or a constant third one.
+  Channels channels{};
+  stack::Green green = stack::Green::up; ///< whether y grows with its channel
+  bool flips_x = false;                  ///< x grows against its channel
+  bool is_depth = false;                 ///< heights: 1 lies deepest
+  /// Writing: channels up to the third are there, for files whose two are grey and opacity.
+  bool is_filled = false;
+  double range = 1; ///< derivatives: slope of the largest code
+  stack::NeutralCode neutral = stack::NeutralCode::between;
+};
+
+/// Slopes of a map, and what was odd about it.
+struct Slopes {
+  image::Image map{};           ///< (dh/ds, dh/dt), two channels of floats
+  std::int64_t inward = 0;      ///< texels of normals with z <= 0, which no surface has
+  bool is_two_channels = false; ///< z is reconstructed
+};
+
+/// Slopes of a map of normals or derivatives. `file` names it in errors.
+///
+/// source  derivative_from_normal
+/// errors  InputError for channels that the map lacks and for values that are not finite, with the texel
+[[nodiscard]] Slopes read_slopes(const image::Image& map, const Form& form,
+                                 const std::filesystem::path& file);
+
+/// Heights of a map, one channel of floats: 0 to 1 in integer files, as they are in float files. Errors as
+/// above.
+[[nodiscard]] image::Image read_heights(const image::Image& map, const Form& form,
+                                        const std::filesystem::path& file);
+
+/// A map to be written.
+struct Written {
+  image::Image map{}; ///< floats, of integer depths within [0, 1]
+  std::int64_t clamped =
+      0; ///< texels beyond what the form can hold: steeper than the range, heights outside 0 to 1
+  double steepest = 0; ///< largest slope along an axis
+};
+
+/// Slopes as normals or derivatives. `depth` is what the file will have; its codes are not yet rounded.
+[[nodiscard]] Written write_slopes(const image::Image& slopes, const Form& form, image::Depth depth);
+/// Heights, one channel.
+[[nodiscard]] Written write_heights(const image::Image& heights, const Form& form, image::Depth depth);
+
+/// Normals in another arrangement of channels and with another direction of x and y, their vectors as they
+/// are: the same texels. Flips are their own inverses. Both forms hold as many components.
+[[nodiscard]] image::Image rearranged(const image::Image& map, const Form& from, const Form& to,
+                                      const std::filesystem::path& file);
+
+/// The texel of a map without bumps.
+[[nodiscard]] std::vector<float> flat_texel(const Form& form, image::Depth depth);
+
+} // namespace surfgrad::maps
