@@ -12,5 +12,7 @@ void add_gallery_command(CLI::App& program);
 void add_shader_command(CLI::App& program);
 void add_tangents_command(CLI::App& program);
 void add_convert_command(CLI::App& program);
+void add_inspect_command(CLI::App& program);
+void add_blend_command(CLI::App& program);
 
 } // namespace surfgrad::cli

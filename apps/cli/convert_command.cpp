@@ -8,6 +8,7 @@
 #include "io/image_file.hpp"
 #include "map_options.hpp"
 #include "maps/convert.hpp"
+#include "maps/inspect.hpp"
 #include "maps/over_mesh.hpp"
 #include "maps/recode.hpp"
 #include "options.hpp"
@@ -127,7 +128,7 @@ maps::Conversion conversion_for(const ConvertCommand& command, const image::Imag
 void say(const maps::Converted& made, const maps::Conversion& c, const fs::path& output, Console& console) {
   const double texels = double{1.0 * made.map.width} * made.map.height;
   if (made.inward > 0)
-    console.warn(fmt::format("{} texels ({:.2g} %) point inward (z <= 0): their steepest slope instead",
+    console.warn(fmt::format("{} texels ({:.1f} %) point inward (z <= 0); they are read as if z was positive",
                              made.inward, 100 * static_cast<double>(made.inward) / texels));
   if (made.clamped > 0 && c.to.kind == maps::Kind::height)
     console.warn(fmt::format("{} heights lie outside 0 to 1 and are clamped; leave out the scale to fit them",
@@ -198,6 +199,8 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
   Console console("converting", command.quiet);
   const image::Image map = io::read_image(input);
   stop_if_interrupted();
+  if (command.conversion.from.kind == maps::Kind::normal && command.conversion.from.channels.count == 0)
+    maps::require_normals(map, input);
   const maps::Conversion c = conversion_for(command, map, output);
   maps::Converted made;
   if (command.mesh.empty()) {

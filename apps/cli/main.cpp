@@ -61,6 +61,8 @@ int main(int argc, char** argv) {
   surfgrad::cli::add_shader_command(program);
   surfgrad::cli::add_tangents_command(program);
   surfgrad::cli::add_convert_command(program);
+  surfgrad::cli::add_blend_command(program);
+  surfgrad::cli::add_inspect_command(program);
   surfgrad::cli::note_interrupts();
   const int status = run(program, argc, argv);
   if (surfgrad::cli::interrupted()) surfgrad::cli::end_by_interrupt();

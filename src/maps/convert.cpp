@@ -105,6 +105,7 @@ class Converter {
       if (c_.from.kind == Kind::height) {
         from_heights(read_heights(map, c_.from, file_));
       } else {
+        require_normals(map, c_.from, Inward::refused, file_);
         Slopes slopes = read_slopes(map, c_.from, file_);
         result_.inward = slopes.inward;
         from_slopes(std::move(slopes.map));

@@ -39,7 +39,7 @@ struct Converted {
   std::vector<image::Image> mips{};      ///< of mean slopes or heights: levels 1, 2, ...
   std::vector<image::Image> roughness{}; ///< of each level, one channel; where slopes are written
   double slope_scale = 0; ///< that was used between heights and slopes, or found; 0 where neither has heights
-  std::int64_t inward = 0;  ///< texels of normals with z <= 0: their steepest slope instead
+  std::int64_t inward = 0;  ///< texels of normals with z <= 0: read as if it was positive
   std::int64_t clamped = 0; ///< beyond what the new form can hold
   double steepest = 0;      ///< largest slope along an axis, where there are slopes
   /// Heights made of slopes: see Integrated.

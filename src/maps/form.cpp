@@ -129,11 +129,25 @@ image::Image of_the_size_of(const image::Image& map, Target target) {
   return image::make_image(map.width, map.height, target.channels, target.depth);
 }
 
-enum class Inward { allowed, refused };
+} // namespace
 
-/// Refuses three channels that are no vectors, told by texels on a lattice over the map.
-void require_normals(const image::Image& map, const Channels& layout, const std::filesystem::path& file,
-                     Inward inward) {
+Channels channels_of(std::string_view text) {
+  Channels channels;
+  for (const char letter : text) {
+    const std::size_t channel = letters.find(letter);
+    if (channel == std::string_view::npos || channels.count == 3)
+      throw std::invalid_argument("up to three of the letters r, g, b and a");
+    channels.channel[static_cast<std::size_t>(channels.count++)] = static_cast<int>(channel);
+  }
+  return channels;
+}
+
+void require_normals(const image::Image& map, const Form& form, Inward inward,
+                     const std::filesystem::path& file) {
+  const Channels layout = layout_in(map, form, file);
+  require_finite(map, file);
+  if (form.kind != Kind::normal || layout.count < 3) return;
+  // By texels on a lattice over the map: a large one is told as surely by these.
   constexpr int most_a_side = 256;
   const int step_x = (map.width + most_a_side - 1) / most_a_side;
   const int step_y = (map.height + most_a_side - 1) / most_a_side;
@@ -163,23 +177,9 @@ void require_normals(const image::Image& map, const Channels& layout, const std:
     refuse(into_surface, "vectors that point into the surface", "is it one of an object's normals?");
 }
 
-} // namespace
-
-Channels channels_of(std::string_view text) {
-  Channels channels;
-  for (const char letter : text) {
-    const std::size_t channel = letters.find(letter);
-    if (channel == std::string_view::npos || channels.count == 3)
-      throw std::invalid_argument("up to three of the letters r, g, b and a");
-    channels.channel[static_cast<std::size_t>(channels.count++)] = static_cast<int>(channel);
-  }
-  return channels;
-}
-
 Slopes read_slopes(const image::Image& map, const Form& form, const std::filesystem::path& file) {
   const Channels layout = layout_in(map, form, file);
   require_finite(map, file);
-  if (layout.count == 3) require_normals(map, layout, file, Inward::refused);
   const bake::Format format = format_of(form, layout.count, map.depth);
   const bool integers = image::is_integer(map.depth);
   const double most = map.depth == image::Depth::unorm8 ? 255 : 65535;
@@ -260,8 +260,7 @@ Arrangement arrangement_of(const image::Image& map, const Form& from, const Form
                           : layout_in(map, from, file);
   const Channels out = layout_out(to);
   if (from.kind != to.kind || in.count != out.count) return result;
-  require_finite(map, file);
-  if (from.kind == Kind::normal && in.count == 3) require_normals(map, in, file, Inward::allowed);
+  require_normals(map, from, Inward::allowed, file);
   result.is_only_that = true;
   result.channels = channels_out(to, out);
   const bool flips[] = {from.kind == Kind::height ? from.is_depth != to.is_depth : from.flips_x != to.flips_x,

@@ -52,10 +52,20 @@ struct Slopes {
 /// Slopes of a map of normals or derivatives. `file` names it in errors.
 ///
 /// source  derivative_from_normal
-/// errors  InputError for channels that the map lacks and for values that are not finite, with the texel; for
-///         three channels of which most are no vectors of about unit length, or point into the surface
+/// errors  InputError for channels that the map lacks and for values that are not finite, with the texel
 [[nodiscard]] Slopes read_slopes(const image::Image& map, const Form& form,
                                  const std::filesystem::path& file);
+
+/// Whether vectors that point into the surface are those of a map.
+enum class Inward {
+  allowed, ///< in object space
+  refused, ///< but for a few texels
+};
+
+/// Refuses a picture whose three channels are no normals: most of its vectors are far from unit length, or
+/// point into the surface. What holds no three components of normals passes. Errors else as read_slopes.
+void require_normals(const image::Image& map, const Form& form, Inward inward,
+                     const std::filesystem::path& file);
 
 /// Heights of a map, one channel of floats: 0 to 1 in integer files, as they are in float files. Errors as
 /// above.
