@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <set>
 #include <utility>
 
 namespace surfgrad::maps {
@@ -49,7 +48,8 @@ std::vector<float> channel_of(const image::Image& map, int channel) {
 }
 
 void look_at_channels(const image::Image& map, Inspection& result) {
-  bool has_more = false;
+  // What 8 bits become in 16: each code times 257, or, less exactly, times 256.
+  bool are_multiples[] = {true, true};
   for (int c = 0; c < map.channels; ++c) {
     const std::vector<float> values = channel_of(map, c);
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -57,12 +57,15 @@ void look_at_channels(const image::Image& map, Inspection& result) {
       result.constant_channels.push_back(c);
       continue;
     }
-    std::set<float> codes;
-    for (std::size_t i = 0; i < values.size() && codes.size() <= 256; ++i) codes.insert(values[i]);
-    has_more = has_more || codes.size() > 256 || values.size() <= 256;
+    for (const float value : values) {
+      const long code = std::lround(65535.0 * value);
+      are_multiples[0] = are_multiples[0] && code % 257 == 0;
+      are_multiples[1] = are_multiples[1] && code % 256 == 0;
+    }
   }
   const bool is_constant = result.constant_channels.size() == static_cast<std::size_t>(map.channels);
-  result.is_banded = map.depth == image::Depth::unorm16 && !has_more && !is_constant;
+  result.is_banded =
+      map.depth == image::Depth::unorm16 && !is_constant && (are_multiples[0] || are_multiples[1]);
 }
 
 /// Of every so many rows.
@@ -228,7 +231,8 @@ Tiling find_tiling(const image::Image& map, bool along_s) {
   std::vector<double> near = steps(map, along_s, 1);
   const double seam = near.back();
   near.pop_back();
-  std::vector<double> far = steps(map, along_s, length / 2);
+  // As far apart as no pattern repeats that fits the map a whole number of times: by the golden section.
+  std::vector<double> far = steps(map, along_s, static_cast<int>(0.382 * length));
   const double largest = *std::max_element(near.begin(), near.end());
   const auto middle_of = [](std::vector<double>& values) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
@@ -241,7 +245,7 @@ Tiling find_tiling(const image::Image& map, bool along_s) {
   // Noise without neighbourhood meets itself anywhere.
   const double likeness = middle_of(near) / middle_of(far);
   if (likeness > 0.5) return result;
-  const bool is_plain = result.repeats ? likeness < 0.1 : result.seam > 1.5;
+  const bool is_plain = result.repeats ? likeness < 0.2 : result.seam > 1.5;
   result.confidence = is_plain ? Confidence::certain : Confidence::likely;
   return result;
 }

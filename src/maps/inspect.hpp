@@ -61,7 +61,7 @@ struct Inspection {
   double unit_share = 0;       ///< of texels with a length within 0.2 of 1
   std::int64_t inward = 0;     ///< z <= 0
   std::vector<int> constant_channels{};
-  bool is_banded = false; ///< a file of 16 bits that holds no more than 256 different codes a channel
+  bool is_banded = false; ///< a file of 16 bits whose codes are those of 8
   // Of tangent-space normals, slopes being those of green up unless it is certain that it is down:
   GreenFinding green{};
   vec2<double> tilt{0, 0};    ///< mean slope
