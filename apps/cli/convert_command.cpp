@@ -10,12 +10,14 @@
 #include "maps/convert.hpp"
 #include "maps/inspect.hpp"
 #include "maps/over_mesh.hpp"
+#include "maps/recode.hpp"
 #include "options.hpp"
 #include "output_names.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -162,6 +164,28 @@ void write(const fs::path& file, const image::Image& map, image::Depth depth, io
   io::write_image(file, map, depth, compression);
 }
 
+/// A conversion that changes only codes, written while it is done. Returns its summary for machines.
+nlohmann::json recode_file(const ConvertCommand& command, const image::Image& map,
+                           const maps::Recoding& recoding, image::Depth depth, const fs::path& input,
+                           const fs::path& output) {
+  OutputFile file(output, {map.width, map.height, recoding.channels(), recoding.has_alpha()}, depth,
+                  command.compression);
+  constexpr int band_rows = 64; // some megabytes
+  for (int top = map.height; top > 0; top -= band_rows) {
+    const int rows = std::min(band_rows, top);
+    file.write(recoding.rows(top - rows, rows));
+  }
+  file.commit();
+  if (!command.json)
+    Console("converting", command.quiet)
+        .say(fmt::format("wrote {} ({}x{})", output.string(), map.width, map.height));
+  return {{"input", input.string()},
+          {"output", output.string()},
+          {"width", map.width},
+          {"height", map.height},
+          {"rearranged", true}};
+}
+
 /// One map. Returns its summary for machines.
 nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input) {
   const fs::path output = command.names.file_for(command.output, input);
@@ -180,6 +204,8 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
   const maps::Conversion c = conversion_for(command, map, output);
   maps::Converted made;
   if (command.mesh.empty()) {
+    if (const auto recoding = maps::Recoding::of(map, c, input))
+      return recode_file(command, map, *recoding, c.depth, input, output);
     made = maps::convert(map, c, input);
   } else {
     const maps::OverMesh job{.model = command.mesh,

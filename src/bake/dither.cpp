@@ -8,9 +8,9 @@ namespace surfgrad::bake {
 namespace {
 
 constexpr int most = 255;
-// The channels take the mask about a third of it apart in both directions: their errors are independent.
-constexpr int shift_x[] = {0, 21, 43};
-constexpr int shift_y[] = {0, 43, 21};
+// The channels take the mask about a third of it apart: their errors are independent.
+constexpr int shift_x[] = {0, 21, 43, 43};
+constexpr int shift_y[] = {0, 43, 21, 53};
 
 } // namespace
 

@@ -12,7 +12,7 @@ namespace surfgrad::bake {
 class Dither {
  public:
   /// height  of the whole map
-  /// flat    the texel to leave alone
+  /// flat    the texel to leave alone; pictures have up to four channels
   Dither(int height, std::vector<float> flat, stage::BandSink take);
 
   /// The next rows from the top downwards.

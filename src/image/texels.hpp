@@ -49,6 +49,12 @@ class Texels {
   /// scratch  room for as many, where they are put unless they lie somewhere already
   [[nodiscard]] const float* read(std::size_t first, std::size_t count, float* scratch) const;
 
+  /// What `reader` makes of the vector they lie in: Codes8, Codes16 or Floats.
+  template <class Reader>
+  decltype(auto) visit(const Reader& reader) const {
+    return std::visit(reader, values_);
+  }
+
   /// All of them, to be written to.
   [[nodiscard]] Floats& floats();
 

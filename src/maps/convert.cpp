@@ -3,6 +3,7 @@
 #include "bake/dither.hpp"
 #include "image/parallel.hpp"
 #include "maps/integrate.hpp"
+#include "maps/recode.hpp"
 #include "maps/resample.hpp"
 #include "stage/bands.hpp"
 
@@ -17,15 +18,6 @@ namespace {
 
 // Two centimetres a metre: what plaster, bark or brickwork rises by.
 constexpr double usual_relief = 0.02;
-
-/// Whether the vectors of the texels stay what they are.
-bool only_rearranges(const image::Image& map, const Conversion& c) {
-  if (c.retile || c.width > 0 || c.from.kind != Kind::normal || c.to.kind != Kind::normal) return false;
-  const auto components = [](const Form& form, int without) {
-    return form.channels.count > 0 ? form.channels.count : without;
-  };
-  return components(c.from, std::min(map.channels, 3)) == components(c.to, 3);
-}
 
 /// Heights from 0 to 1, and what they were multiplied with.
 double fill_range(std::vector<float>& heights) {
@@ -99,14 +91,21 @@ class Converter {
 
   Converted run(const image::Image& map) {
     size_ = c_.width > 0 ? Size{c_.width, c_.height} : Size{map.width, map.height};
-    if (only_rearranges(map, c_)) {
-      result_.map = finished(rearranged(map, c_.from, c_.to, file_));
+    if (const auto recoding = Recoding::of(map, c_, file_)) {
+      result_.map = recoding->rows(0, map.height);
       result_.is_rearranged = true;
+      return std::move(result_);
+    }
+    if (c_.from.kind == Kind::normal && c_.to.kind == Kind::normal && !c_.retile && c_.width == 0) {
+      const Arrangement arrangement = arrangement_of(map, c_.from, c_.to, file_);
+      result_.is_rearranged = arrangement.is_only_that;
+      if (result_.is_rearranged) result_.map = finished(rearranged(map, arrangement));
     }
     if (!result_.is_rearranged || c_.mips || c_.base_roughness) {
       if (c_.from.kind == Kind::height) {
         from_heights(read_heights(map, c_.from, file_));
       } else {
+        require_normals(map, c_.from, Inward::refused, file_);
         Slopes slopes = read_slopes(map, c_.from, file_);
         result_.inward = slopes.inward;
         from_slopes(std::move(slopes.map));

@@ -129,11 +129,6 @@ image::Image of_the_size_of(const image::Image& map, Target target) {
   return image::make_image(map.width, map.height, target.channels, target.depth);
 }
 
-/// Of the vectors of a map of normals whose form does not say.
-std::size_t components_of(const image::Image& map) {
-  return static_cast<std::size_t>(std::clamp(map.channels, 2, 3));
-}
-
 } // namespace
 
 Channels channels_of(std::string_view text) {
@@ -145,6 +140,41 @@ Channels channels_of(std::string_view text) {
     channels.channel[static_cast<std::size_t>(channels.count++)] = static_cast<int>(channel);
   }
   return channels;
+}
+
+void require_normals(const image::Image& map, const Form& form, Inward inward,
+                     const std::filesystem::path& file) {
+  const Channels layout = layout_in(map, form, file);
+  require_finite(map, file);
+  if (form.kind != Kind::normal || layout.count < 3) return;
+  // By texels on a lattice over the map: a large one is told as surely by these.
+  constexpr int most_a_side = 256;
+  const int step_x = (map.width + most_a_side - 1) / most_a_side;
+  const int step_y = (map.height + most_a_side - 1) / most_a_side;
+  // Filtered and coarsely rounded vectors are somewhat short or long; those of colours are anything.
+  constexpr float shortest = 0.5f, longest = 1.5f;
+  int texels = 0, far_from_unit = 0, into_surface = 0;
+  for (int y = 0; y < map.height; y += step_y)
+    for (int x = 0; x < map.width; x += step_x) {
+      const auto component = [&](std::size_t i) { return 2 * map.at(x, y, layout.channel[i]) - 1; };
+      const vec3<float> v{component(0), component(1), component(2)};
+      const float squared = dot(v, v);
+      ++texels;
+      far_from_unit += squared >= shortest * shortest && squared <= longest * longest ? 0 : 1;
+      into_surface += v.z > 0 ? 0 : 1;
+    }
+  const auto refuse = [&](int count, const char* what, const char* remedy) {
+    if (2 * count <= texels) return;
+    throw InputError(
+        {.file = file,
+         .problem = fmt::format("is no {}: {} % of its texels are {}",
+                                inward == Inward::refused ? "tangent-space normal map" : "normal map",
+                                100 * count / texels, what),
+         .remedy = remedy});
+  };
+  refuse(far_from_unit, "far from unit vectors", "say what it holds, or which of its channels are meant");
+  if (inward == Inward::refused)
+    refuse(into_surface, "vectors that point into the surface", "is it one of an object's normals?");
 }
 
 Slopes read_slopes(const image::Image& map, const Form& form, const std::filesystem::path& file) {
@@ -219,22 +249,44 @@ Written write_heights(const image::Image& heights, const Form& form, image::Dept
   return written;
 }
 
-image::Image rearranged(const image::Image& map, const Form& from, const Form& to,
-                        const std::filesystem::path& file) {
-  const auto or_in_order = [&](const Channels& said) {
-    return said.count > 0 ? said : channels_of(letters.substr(0, components_of(map)));
+Arrangement arrangement_of(const image::Image& map, const Form& from, const Form& to,
+                           const std::filesystem::path& file) {
+  Arrangement result;
+  const auto in_order = [](int count) {
+    return channels_of(letters.substr(0, static_cast<std::size_t>(count)));
   };
-  const Channels in = from.channels.count > 0 ? channels_said(map, from, file) : or_in_order({});
-  require_finite(map, file);
-  const Channels out = or_in_order(to.channels);
-  image::Image result = of_the_size_of(map, {channels_out(to, out), map.depth});
+  const Channels in = from.kind == Kind::normal && from.channels.count == 0
+                          ? in_order(std::min(map.channels, 3))
+                          : layout_in(map, from, file);
+  const Channels out = layout_out(to);
+  if (from.kind != to.kind || in.count != out.count) return result;
+  require_normals(map, from, Inward::allowed, file);
+  result.is_only_that = true;
+  result.channels = channels_out(to, out);
+  const bool flips[] = {from.kind == Kind::height ? from.is_depth != to.is_depth : from.flips_x != to.flips_x,
+                        from.green != to.green, false};
+  for (int i = 0; i < out.count; ++i) {
+    const auto component = static_cast<std::size_t>(i);
+    result.sources[static_cast<std::size_t>(out.channel[component])] = {in.channel[component], flips[i]};
+  }
+  result.has_alpha =
+      from.kind == Kind::normal && from.channels.count == 0 && to.channels.count == 0 && map.channels == 4;
+  if (result.has_alpha) {
+    result.sources[3] = {3, false};
+    result.channels = 4;
+  }
+  return result;
+}
+
+image::Image rearranged(const image::Image& map, const Arrangement& arrangement) {
+  image::Image result = of_the_size_of(map, {arrangement.channels, map.depth});
+  result.has_alpha = arrangement.has_alpha;
   const auto channels = static_cast<std::size_t>(result.channels);
-  const bool flips[] = {from.flips_x != to.flips_x, from.green != to.green, false};
   each_texel(map, result, [&](const float* texel, float* made) {
-    std::fill_n(made, channels, 1.0f);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(out.count); ++i) {
-      const float value = texel[in.channel[i]];
-      made[out.channel[i]] = flips[i] ? 1 - value : value;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const Arrangement::Source& source = arrangement.sources[c];
+      const float value = source.channel < 0 ? 1.0f : texel[source.channel];
+      made[c] = source.flips ? 1 - value : value;
     }
     return 0;
   });

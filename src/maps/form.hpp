@@ -56,6 +56,17 @@ struct Slopes {
 [[nodiscard]] Slopes read_slopes(const image::Image& map, const Form& form,
                                  const std::filesystem::path& file);
 
+/// Whether vectors that point into the surface are those of a map.
+enum class Inward {
+  allowed, ///< in object space
+  refused, ///< but for a few texels
+};
+
+/// Refuses a picture whose three channels are no normals: most of its vectors are far from unit length, or
+/// point into the surface. What holds no three components of normals passes. Errors else as read_slopes.
+void require_normals(const image::Image& map, const Form& form, Inward inward,
+                     const std::filesystem::path& file);
+
 /// Heights of a map, one channel of floats: 0 to 1 in integer files, as they are in float files. Errors as
 /// above.
 [[nodiscard]] image::Image read_heights(const image::Image& map, const Form& form,
@@ -74,10 +85,26 @@ struct Written {
 /// Heights, one channel.
 [[nodiscard]] Written write_heights(const image::Image& heights, const Form& form, image::Depth depth);
 
+/// Where the channels of a map go that is only rearranged.
+struct Arrangement {
+  struct Source {
+    int channel = -1;   ///< of the map that is read; -1: white
+    bool flips = false; ///< against the middle of the values
+  };
+  bool is_only_that = false; ///< else the forms hold different things, and the rest says nothing
+  int channels = 0;
+  bool has_alpha = false; ///< the opacity of a map of normals, which stays where no form says its channels
+  std::array<Source, 4> sources{};
+};
+
+/// Throws InputError for channels that the map lacks, for values that are not finite, and where it holds
+/// three channels that are no normals: most vectors are far from unit length.
+[[nodiscard]] Arrangement arrangement_of(const image::Image& map, const Form& from, const Form& to,
+                                         const std::filesystem::path& file);
+
 /// Normals in another arrangement of channels and with another direction of x and y, their vectors as they
-/// are: the same texels. Flips are their own inverses. Both forms hold as many components.
-[[nodiscard]] image::Image rearranged(const image::Image& map, const Form& from, const Form& to,
-                                      const std::filesystem::path& file);
+/// are: the same texels. Flips of codes are their own inverses.
+[[nodiscard]] image::Image rearranged(const image::Image& map, const Arrangement& arrangement);
 
 /// The texel of a map without bumps.
 [[nodiscard]] std::vector<float> flat_texel(const Form& form, image::Depth depth);

@@ -1,8 +1,7 @@
 #include "maps/transform.hpp"
 
 #include "maps/lines.hpp"
-
-#include <kissfft/kissfft.hh>
+#include "maps/plan.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -12,7 +11,6 @@ namespace surfgrad::maps {
 namespace {
 
 using Complex = std::complex<double>;
-using Fft = kissfft<double>;
 
 /// One line of a block, and room for its transform.
 struct Line {
@@ -27,9 +25,9 @@ template <class T, class Transform>
 void transform_lines(std::vector<T>& values, int width, int height, Axis axis, bool inverse,
                      const Transform& transform) {
   const Lines lines = lines_of(width, height, axis);
-  const Fft shared(lines.length, inverse);
+  const Plan shared(lines.length, inverse);
   for_blocks_of_lines(lines, [&](std::size_t first, std::size_t count) {
-    const Fft plan = shared; // has room of its own for odd prime factors
+    Plan plan = shared; // has room of its own
     LineBlock<T> block(lines.length);
     Line line(lines.length);
     load(lines, values.data(), first, count, block);
@@ -38,8 +36,7 @@ void transform_lines(std::vector<T>& values, int width, int height, Axis axis, b
   });
 }
 
-void fourier_of_block(LineBlock<Complex>& block, std::size_t count, const Fft& plan, Line& line,
-                      double scale) {
+void fourier_of_block(LineBlock<Complex>& block, std::size_t count, Plan& plan, Line& line, double scale) {
   for (std::size_t l = 0; l < count; ++l) {
     for (std::size_t k = 0; k < block.length(); ++k) line.values[k] = block[k][l];
     plan.transform(line.values.data(), line.spectrum.data());
@@ -51,7 +48,7 @@ void fourier_both(std::vector<Complex>& values, int width, int height, bool inve
   for (const Axis axis : {Axis::s, Axis::t}) {
     const double scale = inverse ? 1.0 / (axis == Axis::s ? width : height) : 1;
     transform_lines(values, width, height, axis, inverse,
-                    [&](LineBlock<Complex>& block, std::size_t count, const Fft& plan, Line& line) {
+                    [&](LineBlock<Complex>& block, std::size_t count, Plan& plan, Line& line) {
                       fourier_of_block(block, count, plan, line, scale);
                     });
   }
@@ -69,8 +66,7 @@ std::vector<Complex> quarter_turns(std::size_t n) {
 }
 
 /// Two lines as the real and the imaginary part of one: the parts of its spectrum's symmetric halves.
-void cosine_of_block(LineBlock<double>& block, const Fft& plan, Line& line,
-                     const std::vector<Complex>& turns) {
+void cosine_of_block(LineBlock<double>& block, Plan& plan, Line& line, const std::vector<Complex>& turns) {
   const std::size_t n = block.length();
   for (std::size_t l = 0; l < lanes; l += 2) {
     for (std::size_t k = 0; k < n; ++k) line.values[place_of(k, n)] = {block[k][l], block[k][l + 1]};
@@ -86,7 +82,7 @@ void cosine_of_block(LineBlock<double>& block, const Fft& plan, Line& line,
 
 /// The steps of cosine_of_block backwards. A line's spectrum is turn' * (X[k] - i X[n - k]), of which the
 /// part with X[n - k] is what taking the real part left out.
-void inverse_cosine_of_block(LineBlock<double>& block, const Fft& plan, Line& line,
+void inverse_cosine_of_block(LineBlock<double>& block, Plan& plan, Line& line,
                              const std::vector<Complex>& turns) {
   const std::size_t n = block.length();
   const double scale = 1.0 / static_cast<double>(n);
@@ -113,7 +109,7 @@ void cosine_both(std::vector<double>& values, int width, int height, bool invers
     const std::vector<Complex> turns =
         quarter_turns(static_cast<std::size_t>(axis == Axis::s ? width : height));
     transform_lines(values, width, height, axis, inverse,
-                    [&](LineBlock<double>& block, std::size_t, const Fft& plan, Line& line) {
+                    [&](LineBlock<double>& block, std::size_t, Plan& plan, Line& line) {
                       transform(block, plan, line, turns);
                     });
   }

@@ -6,7 +6,7 @@
 namespace surfgrad::maps {
 
 // Transforms of whole pictures in place, row by row and column by column, on all threads; the same for any
-// number of them. Sides of any length, fast where they have small prime factors.
+// number of them. Sides of any length cost about the same a texel.
 
 /// Discrete Fourier transform: sum over (x, y) of v exp(-2 pi i (x k / width + y l / height)); its inverse
 /// has the other sign and divides by the number of texels.

@@ -22,8 +22,10 @@ constexpr double pi = std::numbers::pi;
 struct Size {
   int width, height;
 };
-// Powers of two, odd, prime, and of a single row, column or texel.
-constexpr Size sizes[] = {{8, 4}, {16, 16}, {9, 10}, {7, 13}, {1, 6}, {5, 1}, {1, 1}, {2, 2}, {34, 3}};
+// Powers of two, odd, small primes and large ones, which go another way, and of a single row, column or
+// texel.
+constexpr Size sizes[] = {{8, 4}, {16, 16}, {9, 10}, {7, 13}, {1, 6},  {5, 1},
+                          {1, 1}, {2, 2},   {34, 3}, {61, 4}, {3, 74}, {29, 1}};
 
 std::size_t at(Size size, int x, int y) { return static_cast<std::size_t>(y * size.width + x); }
 
