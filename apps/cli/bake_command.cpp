@@ -7,11 +7,14 @@
 #include "console.hpp"
 #include "gltf_output.hpp"
 #include "io/extension.hpp"
+#include "io/file.hpp"
 #include "io/image_file.hpp"
+#include "io/model_files.hpp"
 #include "io/read_log.hpp"
 #include "lost_detail_output.hpp"
 #include "options.hpp"
 #include "output_names.hpp"
+#include "output_set.hpp"
 #include "shard.hpp"
 
 #include <surfgrad/derivative.hpp>
@@ -47,7 +50,11 @@ struct BakeCommand {
   Shard shard;
   bool if_changed = false;
   const CLI::App* verb = nullptr;
+  std::shared_ptr<OutputSet> outputs = std::make_shared<OutputSet>(); // of all scenes
 };
+
+// Triangles are sorted into tiles of some tens of samples: as many tiles as fit into some tens of megabytes.
+constexpr int most_samples_a_side = 65536;
 
 constexpr int most_padding = 256; // a window of that many rows is kept
 
@@ -79,6 +86,11 @@ bake::Options job_of(const BakeCommand& command, image::Depth depth) {
     throw CLI::ValidationError("--neutral", "is for --encoding derivative and the depths 8 and 16");
   if (command.dither && depth != image::Depth::unorm8)
     throw CLI::ValidationError("--dither", "is for --depth 8");
+  if (job.samples * std::max(job.width, job.height) > most_samples_a_side)
+    throw CLI::ValidationError("--samples",
+                               fmt::format("{} along each side of a texel of this --size are more than "
+                                           "{} along a side of the map",
+                                           job.samples, most_samples_a_side));
   job.range = command.range.value_or(job.range);
   job.neutral = command.neutral.value_or(job.neutral);
   job.dither = command.dither.value_or(depth == image::Depth::unorm8);
@@ -90,17 +102,19 @@ bake::Options job_of(const BakeCommand& command, image::Depth depth) {
 constexpr std::string_view udim_mark = "<UDIM>";
 
 bool has_udim(const std::filesystem::path& output) {
-  return output.filename().string().find(udim_mark) != std::string::npos;
+  return output.string().find(udim_mark) != std::string::npos;
 }
 
 std::filesystem::path file_of_tile(const std::filesystem::path& output, const bake::UdimTile& tile) {
-  std::string name = output.filename().string();
-  name.replace(name.find(udim_mark), udim_mark.size(), std::to_string(tile.number()));
-  return output.parent_path() / name;
+  std::string name = output.string();
+  for (std::size_t at = 0; (at = name.find(udim_mark, at)) != std::string::npos;)
+    name.replace(at, udim_mark.size(), std::to_string(tile.number()));
+  return name;
 }
 
 /// All that decides what an output holds but the contents of the files that are read.
-nlohmann::json job_to_record(const BakeCommand& command, const std::filesystem::path& output) {
+nlohmann::json job_to_record(const BakeCommand& command, const std::filesystem::path& output,
+                             const ChosenDevice& device) {
   nlohmann::json options;
   for (const CLI::Option* option : command.verb->get_options()) {
     static const std::set<std::string> without_effect{"SCENE",  "--threads",    "--quiet", "--json",
@@ -109,18 +123,17 @@ nlohmann::json job_to_record(const BakeCommand& command, const std::filesystem::
       options[option->get_name()] = option->results();
   }
   // Relative names among the options mean files of this folder.
-  return {{"surfgrad", SURFGRAD_VERSION},
-          {"folder", std::filesystem::current_path().string()},
-          {"scene", command.common.scene},
-          {"output", output.string()},
-          {"options", options}};
+  return {{"surfgrad", SURFGRAD_VERSION}, {"folder", std::filesystem::current_path().string()},
+          {"device", device.name()},      {"scene", command.common.scene},
+          {"output", output.string()},    {"options", options}};
 }
 
 /// Whether --if-changed finds the output as it would be made; that is told.
-bool is_unchanged(const BakeCommand& command, const std::filesystem::path& output) {
-  if (!command.if_changed) return false;
+bool is_unchanged(const BakeCommand& command, const std::filesystem::path& output,
+                  const ChosenDevice& device) {
+  if (!command.if_changed || command.verify) return false;
   Console console("comparing", command.common.quiet);
-  const BakeRecord record(output, job_to_record(command, output));
+  const BakeRecord record(output, job_to_record(command, output, device));
   if (!record.is_up_to_date([&](std::string_view text) { console.warn(text); })) return false;
   if (!command.common.json) console.say(fmt::format("{} is up to date", output.string()));
   return true;
@@ -181,39 +194,45 @@ std::vector<std::filesystem::path> written_by(const BakeCommand& command,
   return files;
 }
 
-/// A map for each tile that the mesh lies in.
+/// A map for each tile that the mesh lies in, and its summary for machines.
 ///
 /// number  of the scene among those of the command
-nlohmann::json bake_tiles(BakeCommand& command, const scene::Scene& scene, std::size_t number,
-                          bake::Options job, const ChosenDevice& device, const io::ReadLog& log) {
+void bake_tiles(BakeCommand& command, const scene::Scene& scene, std::size_t number, bake::Options job,
+                const ChosenDevice& device, const io::ReadLog& log, nlohmann::json& summary) {
   const std::filesystem::path output = command.common.output;
   const auto inputs = log.files();
   const std::vector<bake::UdimTile> tiles = bake::udim_tiles(scene, job.uv_set);
   for (const bake::UdimTile& tile : tiles) check_is_no_input(scene, file_of_tile(output, tile), "--output");
-  nlohmann::json summaries = nlohmann::json::array();
+  nlohmann::json& summaries = summary["tiles"] = nlohmann::json::array();
+  Batch batch("tiles", tiles.size());
   for (const bake::UdimTile& tile : tiles) {
     if (!command.shard.has(number++)) continue;
     const std::filesystem::path file = file_of_tile(output, tile);
     job.tile = tile;
-    if (is_unchanged(command, file)) {
-      summaries.push_back(unchanged_summary(file));
-    } else {
+    const auto failure = batch.run(file.string(), [&] {
+      if (is_unchanged(command, file, device)) {
+        summaries.push_back(unchanged_summary(file));
+        return;
+      }
       summaries.push_back(bake_map(command, scene, job, file, device));
-      if (command.if_changed) BakeRecord(file, job_to_record(command, file)).write(inputs, {file});
-    }
+      if (command.if_changed) BakeRecord(file, job_to_record(command, file, device)).write(inputs, {file});
+    });
+    if (failure) summaries.push_back({{"output", file.string()}, {"error", failure->what}});
     summaries.back()["udim"] = tile.number();
   }
-  return {{"tiles", summaries}};
+  batch.finish();
 }
 
-/// The maps of one scene. Returns the summary for machines.
+/// The maps of one scene, and their summary for machines.
 ///
 /// number  of the scene among those of the command
-nlohmann::json bake_scene(BakeCommand& command, std::size_t number, const ChosenDevice& device) {
+void bake_scene(BakeCommand& command, std::size_t number, const ChosenDevice& device,
+                nlohmann::json& summary) {
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
   bake::Options job = job_of(command, depth);
   job.backend = device.backend();
+  command.outputs->check_outputs(command.common.scene);
   check_output(output, depth);
   command.gltf.check(job, output);
   command.lost_detail.check(job, output);
@@ -223,18 +242,42 @@ nlohmann::json bake_scene(BakeCommand& command, std::size_t number, const Chosen
                                "<UDIM> goes with the normal map alone: leave out --gltf, --roughness, "
                                "--anisotropy and --mips");
   if (command.verify || job.fill) check_memory({job.width, job.height}); // they hold the map
-  if (!tiled && is_unchanged(command, output)) return unchanged_summary(output);
+  if (command.if_changed) {
+    const Unbroken probe;
+    io::check_writable(BakeRecord::file_for(output));
+  }
+  if (!tiled && is_unchanged(command, output, device)) {
+    summary = unchanged_summary(output);
+    return;
+  }
   const io::ReadLog log;
   Console console("reading", command.common.quiet);
   scene::Scene scene = open_scene(command.common, console.report());
-  check_is_no_input(scene, output, "--output");
-  command.gltf.check(scene);
-  command.lost_detail.check(scene, job, output);
-  if (tiled) return bake_tiles(command, scene, number, job, device, log);
-  nlohmann::json summary = bake_map(command, std::move(scene), job, output, device);
+  command.lost_detail.read_base();
+  for (const auto& [file, digest] : log.files()) command.outputs->check_input(file, command.common.scene);
+  if (command.gltf.is_wanted() && !scene.model.empty())
+    for (const std::filesystem::path& file : io::files_named_by(scene.model))
+      command.outputs->check_input(file, command.common.scene);
+  if (tiled) {
+    bake_tiles(command, scene, number, job, device, log, summary);
+    return;
+  }
+  summary = bake_map(command, std::move(scene), job, output, device);
   if (command.if_changed)
-    BakeRecord(output, job_to_record(command, output)).write(log.files(), written_by(command, output));
-  return summary;
+    BakeRecord(output, job_to_record(command, output, device))
+        .write(log.files(), written_by(command, output));
+}
+
+/// What the outputs of a scene are called, as far as that is known before it is read.
+void claim_outputs(const BakeCommand& one) {
+  const auto claim = [&](const std::string& option, const std::filesystem::path& file) {
+    one.outputs->claim(option, file, one.common.scene);
+  };
+  claim("--output", one.common.output);
+  if (one.if_changed) claim("--if-changed", BakeRecord::file_for(one.common.output));
+  if (one.gltf.is_wanted()) claim("--gltf", one.gltf.file());
+  const Size size = parse_size(one.common.size);
+  one.lost_detail.claim(one.common.output, std::max(size.width, size.height), claim);
 }
 
 /// The command as if it was given for this scene alone.
@@ -258,6 +301,7 @@ void run(BakeCommand& command) {
   command.names.check("--output", command.common.output, scenes);
   command.gltf.check(command.names, scenes);
   command.lost_detail.check(command.names, scenes);
+  for (const std::string& scene : scenes) claim_outputs(for_scene(command, scene));
   command.names.make_folder();
   const ChosenDevice device(command.common.device);
   on_threads(command.common.threads, [&] {
@@ -266,18 +310,20 @@ void run(BakeCommand& command) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       const bool tiled = has_udim(command.common.output);
       if (!tiled && !command.shard.has(i)) continue;
+      nlohmann::json summary = nlohmann::json::object();
       const auto failure = batch.run(scenes[i], [&] {
         BakeCommand one = for_scene(command, scenes[i]);
-        summaries.push_back(bake_scene(one, i, device));
+        bake_scene(one, i, device, summary);
       });
-      if (failure) summaries.push_back({{"error", failure->what}});
-      summaries.back()["scene"] = scenes[i];
+      if (failure) summary["error"] = failure->what;
+      summary["scene"] = scenes[i];
+      summaries.push_back(std::move(summary));
     }
     if (command.common.json) {
       Console console("baking", command.common.quiet);
       if (command.scenes.size() > 1)
         console.say_json({{"scenes", summaries}});
-      else if (!summaries.empty() && !summaries[0].contains("error"))
+      else if (!summaries.empty() && (!summaries[0].contains("error") || summaries[0].contains("tiles")))
         console.say_json(summaries[0]);
     }
     batch.finish();
@@ -377,7 +423,7 @@ void add_bake_command(CLI::App& program) {
   command->gltf.add_option(verb);
   verb.add_flag("--if-changed", command->if_changed,
                 "leave an output alone that is there as it was made, if what it was made from still holds\n"
-                "the same; that is kept beside it, as FILE.record.json");
+                "the same; that is kept beside it, as FILE.bake-record");
   command->shard.add_option(verb);
   verb.callback([command] { run(*command); });
 }

@@ -10,18 +10,18 @@
 #include <cstddef>
 #include <set>
 #include <span>
+#include <system_error>
 
 namespace surfgrad::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path whole_path(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
-
 /// Whether each of these files holds what it held.
 bool hold_the_same(const nlohmann::json& digests) {
   for (const auto& [file, digest] : digests.items()) {
-    if (!fs::is_regular_file(file) || io::digest(io::read_file(file)) != digest.get<std::string>())
+    std::error_code gone;
+    if (!fs::is_regular_file(file, gone) || io::digest(io::read_file(file)) != digest.get<std::string>())
       return false;
   }
   return true;
@@ -34,11 +34,14 @@ std::string text_of(const nlohmann::json& record) {
 
 } // namespace
 
+fs::path BakeRecord::file_for(const fs::path& output) { return output.string() + ".bake-record"; }
+
 BakeRecord::BakeRecord(const fs::path& output, nlohmann::json job)
-    : file_(output.string() + ".record.json"), job_(std::move(job)) {}
+    : file_(file_for(output)), job_(std::move(job)) {}
 
 bool BakeRecord::is_up_to_date(const std::function<void(std::string_view)>& warn) const {
-  if (!fs::exists(file_)) return false;
+  std::error_code none;
+  if (!fs::exists(file_, none)) return false;
   try {
     const std::vector<std::byte> bytes = io::read_file(file_);
     const nlohmann::json record = nlohmann::json::parse(bytes.begin(), bytes.end());
@@ -57,7 +60,7 @@ void BakeRecord::write(const std::map<fs::path, std::string>& inputs,
   nlohmann::json record{
       {"job", job_}, {"inputs", nlohmann::json::object()}, {"outputs", nlohmann::json::object()}};
   for (const fs::path& output : outputs)
-    record["outputs"][whole_path(output).string()] = io::digest(io::read_file(output));
+    record["outputs"][fs::absolute(output).string()] = io::digest(io::read_file(output));
   for (const auto& [file, digest] : inputs)
     if (!record["outputs"].contains(file.string())) record["inputs"][file.string()] = digest;
   const std::string text = text_of(record);

@@ -11,9 +11,11 @@
 
 namespace surfgrad::cli {
 
-/// What outputs were baked from, kept in a file beside the first of them: `rock_n.png.record.json`.
+/// What outputs were baked from, kept in a file beside the first of them: `rock_n.png.bake-record`.
 class BakeRecord {
  public:
+  [[nodiscard]] static std::filesystem::path file_for(const std::filesystem::path& output);
+
   /// output  file that the record is kept beside
   /// job     all that decides what the outputs hold but the contents of the inputs
   BakeRecord(const std::filesystem::path& output, nlohmann::json job);

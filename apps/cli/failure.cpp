@@ -1,5 +1,6 @@
 #include "failure.hpp"
 
+#include "batch.hpp"
 #include "diagnostic/error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,8 @@ Failure current_failure() {
     throw;
   } catch (const CLI::Error&) {
     throw;
+  } catch (const SomeFailed& error) {
+    return {error.status(), error.what()};
   } catch (const InputError& error) {
     return {input_is_wrong, error.what()};
   } catch (const MachineError& error) {

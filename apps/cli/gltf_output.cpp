@@ -36,10 +36,6 @@ void GltfOutput::check(const bake::Options& job, const std::filesystem::path& ma
   io::check_glb_output(file_);
 }
 
-void GltfOutput::check(const scene::Scene& scene) const {
-  if (is_wanted()) check_is_no_input(scene, file_, "--gltf");
-}
-
 void GltfOutput::write(const scene::Scene& scene, const bake::Options& job, const bake::Counts& baked,
                        const Maps& maps, bool quiet) const {
   if (!is_wanted()) return;

@@ -29,8 +29,6 @@ class GltfOutput {
   /// Before long work. Throws CLI::ValidationError where glTF cannot hold the map that is asked for, and as
   /// io::check_glb_output.
   void check(const bake::Options& job, const std::filesystem::path& map) const;
-  /// Refuses to replace a file of the scene.
-  void check(const scene::Scene& scene) const;
   /// What goes into the model.
   struct Maps {
     std::filesystem::path normal;    ///< written

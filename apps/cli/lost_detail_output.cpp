@@ -24,7 +24,7 @@ image::Depth depth_of(const fs::path& file) { return depth_for(file, "", image::
 void LostDetailOutput::add_options(CLI::App& verb) {
   verb.add_option("--roughness", roughness_,
                   "also write the roughness that the detail lost within each texel amounts to, on top of\n"
-                  "--base-roughness; wants --samples of 2 or more, or --mips")
+                  "--base-roughness; wants --samples of 2 or more, or --mips. 8 bits, floats in EXR")
       ->check(not_empty())
       ->type_name("FILE");
   verb.add_option(
@@ -64,24 +64,23 @@ void LostDetailOutput::check(const bake::Options& job, const fs::path& map) cons
   if (!roughness_.empty() && job.samples == 1 && !is_mips_wanted_)
     throw CLI::ValidationError("--roughness", "is what the samples of a texel differ by: give --samples 2 or "
                                               "more, or --mips");
-  for (const fs::path& file : {roughness_, anisotropy_}) {
-    if (file.empty()) continue;
-    if (file == map || (file == anisotropy_ && file == roughness_))
-      throw CLI::ValidationError("--roughness", fmt::format("\"{}\" is written twice", file.string()));
-    check_output(file, depth_of(file));
-  }
-  check_memory({6 * job.width, job.height}); // 56 bytes a texel, where a picture has 12
+  claim(map, std::max(job.width, job.height), [&](const std::string& option, const fs::path& file) {
+    check_output(file, option == "--mips" ? job.depth : depth_of(file));
+  });
+  check_memory({job.width, job.height}, 72); // sums, their levels and a picture
 }
 
-void LostDetailOutput::check(const scene::Scene& scene, const bake::Options& job, const fs::path& map) {
-  if (!is_wanted()) return;
-  base_read_ = base_roughness_of(base_);
-  const int levels =
-      is_mips_wanted_ ? std::bit_width(static_cast<unsigned>(std::max(job.width, job.height))) : 1;
+void LostDetailOutput::read_base() {
+  if (is_wanted()) base_read_ = base_roughness_of(base_);
+}
+
+void LostDetailOutput::claim(const fs::path& map, int side,
+                             const std::function<void(const std::string&, const fs::path&)>& claim) const {
+  const int levels = is_mips_wanted_ ? std::bit_width(static_cast<unsigned>(side)) : 1;
   for (int level = 0; level < levels; ++level) {
-    if (level > 0) check_is_no_input(scene, file_of_level(map, level), "--mips");
-    if (!roughness_.empty()) check_is_no_input(scene, file_of_level(roughness_, level), "--roughness");
-    if (!anisotropy_.empty()) check_is_no_input(scene, file_of_level(anisotropy_, level), "--anisotropy");
+    if (level > 0) claim("--mips", file_of_level(map, level));
+    if (!roughness_.empty()) claim("--roughness", file_of_level(roughness_, level));
+    if (!anisotropy_.empty()) claim("--anisotropy", file_of_level(anisotropy_, level));
   }
 }
 
@@ -102,7 +101,10 @@ void LostDetailOutput::write(const scene::Scene& scene, const bake::Options& job
     if (roughness_.empty()) continue;
     image::Image roughness = bake::roughness_map(slopes, level, *base_read_, job, !anisotropy_.empty());
     write(file_of_level(roughness_, level), roughness, depth_of(roughness_));
-    if (level == 0) written_ = std::move(roughness);
+    // A model takes it without direction.
+    if (level == 0)
+      written_ = anisotropy_.empty() ? std::move(roughness)
+                                     : bake::roughness_map(slopes, level, *base_read_, job, false);
     if (anisotropy_.empty()) continue;
     write(file_of_level(anisotropy_, level), bake::anisotropy_map(slopes, level, *base_read_, job),
           depth_of(anisotropy_));

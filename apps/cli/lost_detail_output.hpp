@@ -34,8 +34,12 @@ class LostDetailOutput {
   /// Before long work. Throws CLI::ValidationError where the options contradict each other or the job's,
   /// InputError where a file cannot be written.
   void check(const bake::Options& job, const std::filesystem::path& map) const;
-  /// Reads the base roughness, and refuses to replace a file of the scene.
-  void check(const scene::Scene& scene, const bake::Options& job, const std::filesystem::path& map);
+  /// Calls claim(option, file) for each file that will be written beside a map with this longer side.
+  void
+  claim(const std::filesystem::path& map, int side,
+        const std::function<void(const std::string& option, const std::filesystem::path& file)>& claim) const;
+  /// Once all is checked.
+  void read_base();
   /// After the map was written; it names the files of its levels.
   void write(const scene::Scene& scene, const bake::Options& job, const std::filesystem::path& map,
              io::Compression compression, bool quiet);

@@ -19,9 +19,6 @@ namespace {
 // A square of this side has 2^28 pixels, the most that images read and pictures rendered may have.
 constexpr int largest_side = 16384;
 
-// The picture as three floats, and what is seen there.
-constexpr std::uint64_t bytes_a_pixel = 16;
-
 /// A whole number from 1 to `largest`, in digits alone.
 bool parse_count(std::string_view text, int largest, int& count) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
@@ -106,13 +103,13 @@ Size parse_size(const std::string& text) {
                                            std::to_string(largest_side));
 }
 
-void check_memory(const Size& size) {
+void check_memory(const Size& size, std::uint64_t bytes_a_pixel) {
   const auto pixels = static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
   const std::uint64_t most = usable_memory();
   if (pixels * bytes_a_pixel <= most) return;
   const double scale = std::sqrt(static_cast<double>(most / bytes_a_pixel) / static_cast<double>(pixels));
   throw MachineError(fmt::format(
-      "--size {}x{}: the picture alone takes {} of memory, but there are {}; try {}x{}", size.width,
+      "--size {}x{}: what must be held takes {} of memory, but there are {}; try {}x{}", size.width,
       size.height, gibibytes(pixels * bytes_a_pixel), gibibytes(most),
       std::max(1, static_cast<int>(scale * size.width)), std::max(1, static_cast<int>(scale * size.height))));
 }

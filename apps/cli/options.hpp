@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -54,7 +55,9 @@ struct Size {
 [[nodiscard]] Size parse_size(const std::string& text);
 
 /// Throws MachineError, with a size that fits, where a picture of this one cannot fit in memory.
-void check_memory(const Size& size);
+///
+/// bytes_a_pixel  of what is held; a picture of three floats and what is seen there
+void check_memory(const Size& size, std::uint64_t bytes_a_pixel = 16);
 
 /// Throws Cancelled after an interrupt.
 [[nodiscard]] scene::Scene open_scene(const CommonOptions& options, const Report& report);

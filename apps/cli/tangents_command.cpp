@@ -64,7 +64,7 @@ void add_tangents_command(CLI::App& program) {
       "Makes the attribute TANGENT of every mesh, in glTF's convention: w is +1 where\n"
       "cross(NORMAL, TANGENT) points up in the texture. Tangents that are there are replaced. They equal\n"
       "those of MikkTSpace's author bit for bit, whatever the number of threads: maps baked by other\n"
-      "programs that use MikkTSpace fit.\n\n"
+      "programs that use MikkTSpace fit. The file to write may be the model itself.\n\n"
       "Of a glTF model all else is kept: nodes, materials, images (which move into the .glb), animations,\n"
       "skins, extensions, extras. What changes: vertices are doubled where their corners need different\n"
       "tangents, those that no triangle uses go, strips and fans become triangles, tangents of morph\n"

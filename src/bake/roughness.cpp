@@ -54,21 +54,22 @@ image::Image picture_of(const SlopeStatistics& slopes, int level, int channels, 
 
 BaseRoughness::BaseRoughness(const image::Image& map) {
   const int colors = map.has_alpha ? map.channels - 1 : map.channels;
-  image::Image alphas = image::make_image(map.width, map.height, 1, image::Depth::float32);
+  image::Image squares = image::make_image(map.width, map.height, 1, image::Depth::float32);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
       const float roughness = map.at(x, y, colors >= 3 ? 1 : 0);
-      alphas.at(x, y, 0) = roughness * roughness;
+      squares.at(x, y, 0) = roughness * roughness * roughness * roughness;
     }
-  alphas_ = image::make_channel_map(alphas, 0);
+  squared_alphas_ = image::make_channel_map(squares, 0);
 }
 
 double BaseRoughness::alpha(int x, int y, int width, int height) const {
-  if (alphas_.level_count == 0) return value_ * value_;
-  const double texels =
-      std::max(static_cast<double>(alphas_.width()) / width, static_cast<double>(alphas_.height()) / height);
+  if (squared_alphas_.level_count == 0) return value_ * value_;
+  const double texels = std::max(static_cast<double>(squared_alphas_.width()) / width,
+                                 static_cast<double>(squared_alphas_.height()) / height);
   const vec2<double> st{(x + 0.5) / width, (y + 0.5) / height};
-  return image::sample<1, double>(alphas_, st, std::log2(texels), {}, image::Filter::trilinear, true)[0];
+  return std::sqrt(image::sample<1, double>(squared_alphas_, st, std::log2(texels), {},
+                                            image::Filter::trilinear, true)[0]);
 }
 
 Lobe widened(double alpha, const SlopeMoments<double>& m) {

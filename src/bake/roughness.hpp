@@ -15,12 +15,13 @@ class BaseRoughness {
   /// A map over the UV set that is baked: the green channel of three (glTF's packing), else the first.
   explicit BaseRoughness(const image::Image& map);
 
-  /// Alpha of a texel of a map of this size: the mean over its footprint.
+  /// Alpha of a texel of a map of this size. Its square is the mean over the footprint: twice the variance of
+  /// slopes, which adds up as other variances do.
   [[nodiscard]] double alpha(int x, int y, int width, int height) const;
 
  private:
   double value_ = 0;
-  image::Map alphas_{};
+  image::Map squared_alphas_{};
 };
 
 /// What lost detail does to the reflection of a texel.

@@ -16,7 +16,11 @@ namespace surfgrad::bake {
 namespace {
 
 constexpr int columns = 10;
-constexpr int rows = 900; // as many as numbers of four digits have
+constexpr int rows = 900;
+constexpr int last_number = 9999; // numbers have four digits
+
+// Exporters round: what reaches into a tile by less than a quarter of the smallest texel is not in it.
+constexpr double rounding = 0.25 / 16384;
 
 using Triangle = std::array<vec2<double>, 3>;
 
@@ -53,7 +57,8 @@ bool overlap(const Triangle& triangle, const UdimTile& tile) {
   return std::all_of(axes.begin(), axes.end(), [&](vec2<double> axis) {
     const Range a = range_of(triangle, axis);
     const Range b = range_of(square, axis);
-    return a.low < b.high && b.low < a.high;
+    // Of unit length along s and t; along the sides of triangles a sliver more or less is no matter.
+    return a.low + rounding < b.high && b.low + rounding < a.high;
   });
 }
 
@@ -63,7 +68,12 @@ std::vector<UdimTile> udim_tiles(const scene::Scene& scene, int uv_set) {
   std::set<int> numbers;
   for (const scene::Object& object : scene.objects) {
     const mesh::TriangleMesh& mesh = scene.meshes[object.mesh];
-    if (static_cast<std::size_t>(uv_set) >= mesh.uv_sets.size()) continue;
+    if (static_cast<std::size_t>(uv_set) >= mesh.uv_sets.size())
+      throw InputError(
+          {.file = scene.source,
+           .place = "mesh \"" + object.name + "\"",
+           .problem = fmt::format("has {} UV sets, but set {} is to be baked", mesh.uv_sets.size(), uv_set),
+           .remedy = "choose another with --uv, or unwrap the mesh"});
     const std::vector<vec2<float>>& uvs = mesh.uv_sets[static_cast<std::size_t>(uv_set)];
     for (const auto& vertices : mesh.triangles) {
       Triangle triangle;
@@ -71,7 +81,8 @@ std::vector<UdimTile> udim_tiles(const scene::Scene& scene, int uv_set) {
       if (!has_area(triangle)) continue;
       const Range s = range_of(triangle, {1, 0});
       const Range t = range_of(triangle, {0, 1});
-      if (!(s.low >= 0 && s.high <= columns && t.low >= 0 && t.high <= rows))
+      if (!(s.low >= -rounding && s.high <= columns + rounding && t.low >= -rounding &&
+            t.high <= rows + rounding))
         throw InputError(
             {.file = scene.source,
              .place = "mesh \"" + object.name + "\"",
@@ -80,11 +91,20 @@ std::vector<UdimTile> udim_tiles(const scene::Scene& scene, int uv_set) {
                                     uv_set, s.low, t.low, s.high, t.high),
              .remedy =
                  fmt::format("lay it out within (0, 0) and ({}, {}), tiles 1001 to 9999", columns, rows)});
-      for (int row = static_cast<int>(t.low); row < std::min<double>(rows, t.high); ++row)
-        for (int column = static_cast<int>(s.low); column < std::min<double>(columns, s.high); ++column)
+      for (int row = std::max(0, static_cast<int>(t.low)); row < std::min<double>(rows, t.high); ++row)
+        for (int column = std::max(0, static_cast<int>(s.low)); column < std::min<double>(columns, s.high);
+             ++column)
           if (const UdimTile tile{column, row}; overlap(triangle, tile)) numbers.insert(tile.number());
     }
   }
+  if (numbers.empty())
+    throw InputError({.file = scene.source,
+                      .problem = fmt::format("no triangle has an area in UV set {}", uv_set),
+                      .remedy = "unwrap the mesh"});
+  if (*numbers.rbegin() > last_number)
+    throw InputError({.file = scene.source,
+                      .problem = fmt::format("UV set {} reaches beyond UDIM tile {}", uv_set, last_number),
+                      .remedy = "lay it out in tiles 1001 to 9999"});
   std::vector<UdimTile> tiles;
   for (const int number : numbers) tiles.push_back({(number - 1001) % 10, (number - 1001) / 10});
   return tiles;

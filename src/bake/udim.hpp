@@ -16,8 +16,8 @@ struct UdimTile {
 
 /// The tiles that a scene's triangles have a part of their area in, in the order of their numbers.
 ///
-/// Throws InputError where a triangle reaches out of the columns 0 to 9, below row 0 or beyond tile 9999. A
-/// mesh without the UV set has none: baking says so.
+/// Throws InputError where a mesh lacks the UV set, none of its triangles has an area there, or one reaches
+/// out of the columns 0 to 9, below row 0 or beyond tile 9999.
 [[nodiscard]] std::vector<UdimTile> udim_tiles(const scene::Scene& scene, int uv_set);
 
 } // namespace surfgrad::bake

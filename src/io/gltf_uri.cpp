@@ -110,4 +110,10 @@ Resource read_uri(const std::filesystem::path& model, const std::string& owner, 
   return {std::move(file), std::move(bytes)};
 }
 
+std::optional<std::filesystem::path> file_of_uri(const std::filesystem::path& model, const std::string& owner,
+                                                 const std::string& uri) {
+  if (uri.starts_with("data:")) return {};
+  return Uri(model, owner, uri).file();
+}
+
 } // namespace surfgrad::io::gltf

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,9 @@ struct Resource {
 /// names a scheme, an absolute path, a parent folder or a missing file, or is badly encoded.
 [[nodiscard]] Resource read_uri(const std::filesystem::path& model, const std::string& owner,
                                 const std::string& uri);
+
+/// The file that a URI names; none for data in the URI itself. Throws as read_uri, but for a missing file.
+[[nodiscard]] std::optional<std::filesystem::path>
+file_of_uri(const std::filesystem::path& model, const std::string& owner, const std::string& uri);
 
 } // namespace surfgrad::io::gltf

@@ -27,7 +27,7 @@ std::map<std::filesystem::path, std::string> ReadLog::files() const {
 void note_read(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   ReadLog* const log = current;
   if (log == nullptr) return;
-  const std::filesystem::path name = std::filesystem::absolute(file).lexically_normal();
+  const std::filesystem::path name = std::filesystem::absolute(file);
   std::string held = digest(bytes);
   const std::lock_guard lock(log->mutex_);
   log->files_.try_emplace(name, std::move(held));

@@ -173,7 +173,7 @@ TEST(BakeIfChanged, LeavesAloneWhatIsThereAsItWasMade) {
   };
   EXPECT_TRUE(is_baked(command));
   const auto made = contents(folder.path());
-  EXPECT_TRUE(made.contains("n.png.record.json"));
+  EXPECT_TRUE(made.contains("n.png.bake-record"));
   EXPECT_FALSE(is_baked(command));
   const auto with = [&](const std::string& option, const std::string& value) {
     std::vector<std::string> changed = command;
@@ -210,22 +210,22 @@ TEST(BakeIfChanged, BakesAnewBesideARecordThatCannotBeRead) {
   for (const std::string record :
        {"", "{", "[1, 2]", R"({ "job": 3 })", R"({ "job": {}, "inputs": 1 })", "\xff\xfe"}) {
     summary(folder, {"a.json", "-o", "n.png", "--if-changed"});
-    const std::string whole = text_of(folder.path() / "n.png.record.json");
-    folder.write("n.png.record.json", record);
+    const std::string whole = text_of(folder.path() / "n.png.bake-record");
+    folder.write("n.png.bake-record", record);
     const Outcome run = bake(folder, {"a.json", "-o", "n.png", "--if-changed"});
     EXPECT_EQ(run.status, 0);
     EXPECT_THAT(run.out, HasSubstr("wrote n.png")) << record;
-    EXPECT_EQ(text_of(folder.path() / "n.png.record.json"), whole);
+    EXPECT_EQ(text_of(folder.path() / "n.png.bake-record"), whole);
     const bool is_of_another_job = record.starts_with("{ \"job\"");
     if (!is_of_another_job) {
-      EXPECT_THAT(run.error, HasSubstr("n.png.record.json: is no record of a bake; baking anew")) << record;
+      EXPECT_THAT(run.error, HasSubstr("n.png.bake-record: is no record of a bake; baking anew")) << record;
     }
   }
-  fs::remove(folder.path() / "n.png.record.json");
-  fs::create_directory(folder.path() / "n.png.record.json");
+  fs::remove(folder.path() / "n.png.bake-record");
+  fs::create_directory(folder.path() / "n.png.bake-record");
   const Outcome run = bake(folder, {"a.json", "-o", "n.png", "--if-changed"});
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.error, HasSubstr("n.png.record.json: is a folder"));
+  EXPECT_THAT(run.error, HasSubstr("n.png.bake-record: is a folder"));
 }
 
 TEST(BakeIfChanged, GoesOnAfterAKillWithWhatIsNotDone) {
@@ -236,7 +236,7 @@ TEST(BakeIfChanged, GoesOnAfterAKillWithWhatIsNotDone) {
   std::vector<std::string> arguments = command;
   arguments.insert(arguments.begin(), "bake");
   Running program(arguments, folder.path());
-  while (!program.ended() && !fs::exists(out / "b_normal.png.record.json")) {
+  while (!program.ended() && !fs::exists(out / "b_normal.png.bake-record")) {
   }
   program.send(SIGKILL);
   EXPECT_EQ(program.wait().signal, SIGKILL);
@@ -306,16 +306,104 @@ TEST(BakeShard, ScriptForAJobArrayDoesTheWhole) {
   summary(folder, {"a.json", "b.json", "c.json", "u.json", "-o", "<NAME>.<UDIM>.png", "--out-dir", "whole"});
   const std::string script = (fs::path(SURFGRAD_SOURCE_DIR) / "examples/job_array/bake.sbatch").string();
   for (const std::string task : {"1", "2", "3"}) {
-    const std::string command =
-        "cd '" + folder.path().string() +
-        "' && SURFGRAD='" SURFGRAD_PROGRAM "' SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_ID=" + task + " '" +
-        script + "' ?.json -o '<NAME>.<UDIM>.png' --out-dir array --size 32 -q";
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && SURFGRAD='" SURFGRAD_PROGRAM "' SLURM_ARRAY_TASK_ID=" + task + " '" +
+                                script + "' 3 ?.json -o '<NAME>.<UDIM>.png' --out-dir array --size 32 -q";
     EXPECT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(fs::exists(folder.path() / "array/c.1001.png"), task == "3");
   }
   auto array = contents(folder.path() / "array");
-  std::erase_if(array, [](const auto& file) { return file.first.ends_with(".record.json"); });
+  std::erase_if(array, [](const auto& file) { return file.first.ends_with(".bake-record"); });
   EXPECT_EQ(array, contents(folder.path() / "whole"));
+}
+
+TEST(BakeMany, EachFileIsWrittenOnceHoweverItIsSpelled) {
+  const Folder folder;
+  write_scenes(folder, 1);
+  folder.write("a_r.json", text_of(folder.path() / "a.json"));
+  fs::create_symlink("a.png", folder.path() / "link.png");
+  const auto before = folder.files();
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+    const Outcome run = bake(folder, std::move(arguments));
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.error, HasSubstr(why));
+    EXPECT_EQ(folder.files(), before);
+  };
+  refused({"a.json", "-o", "a.png", "--samples", "2", "--roughness", "./a.png"},
+          "is already written by --output");
+  refused({"a.json", "-o", "a.png", "--samples", "2", "--roughness", "link.png"},
+          "is already written by --output");
+  refused({"a.json", "-o", "b.png", "--mips", "--roughness", "b_mip1.png"},
+          "\"b_mip1.png\" is already written by");
+  refused({"a.json", "a_r.json", "-o", "<NAME>.png", "--samples", "2", "--roughness", "<NAME>_r.png"},
+          "is already written by --roughness for a.json");
+}
+
+TEST(BakeMany, NothingThatIsReadIsReplaced) {
+  const Folder folder;
+  write_udim_scene(folder);
+  folder.write(
+      "u.json",
+      R"({ "surfgrad": 1, "mesh": "q.obj", "layers": [{ "type": "normal_map", "map": "map.png" }] })");
+  write_scenes(folder, 1);
+  folder.write("map.json", text_of(folder.path() / "a.json"));
+  io::write_image(folder.path() / "base.png", image::make_image(4, 4, 1), image::Depth::unorm8);
+  const std::string map = text_of(folder.path() / "map.png");
+  const std::string base = text_of(folder.path() / "base.png");
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+    const Outcome run = bake(folder, std::move(arguments));
+    EXPECT_EQ(run.status, 1) << run.error;
+    EXPECT_THAT(run.error, HasSubstr(why));
+    EXPECT_EQ(text_of(folder.path() / "map.png"), map);
+    EXPECT_EQ(text_of(folder.path() / "base.png"), base);
+  };
+  refused({"u.json", "-o", "map.png"}, "map.png: would replace a file of the scene");
+  refused({"u.json", "map.json", "-o", "<NAME>.png"},
+          "map.png: is a file of u.json, and would be written for map.json");
+  refused({"a.json", "-o", "base.png", "--mips", "--base-roughness", "base.png"},
+          "base.png: would replace a file of the scene");
+  refused(
+      {"a.json", "-o", "n.png", "--samples", "2", "--roughness", "base.png", "--base-roughness", "base.png"},
+      "base.png: would replace a file of the scene");
+}
+
+TEST(BakeIfChanged, FollowsLinksAsTheSystemDoes) {
+  const Folder folder;
+  for (const char* made : {"a", "a/scenes", "a/maps", "b", "b/maps"})
+    fs::create_directory(folder.path() / made);
+  fs::create_directory_symlink("../a/scenes", folder.path() / "b/link");
+  write_udim_scene(folder);
+  folder.write("a/scenes/s.json", R"({ "surfgrad": 1, "mesh": "../../m.obj",
+    "layers": [{ "type": "normal_map", "map": "../maps/n.png" }] })");
+  // Behind the link ".." is a, not b: the same map lies where its name alone leads.
+  for (const char* copy : {"a/maps/n.png", "b/maps/n.png"})
+    fs::copy_file(folder.path() / "map.png", folder.path() / copy);
+  const std::vector<std::string> command{"b/link/s.json", "-o", "n.png", "--if-changed"};
+  summary(folder, command);
+  EXPECT_TRUE(summary(folder, command).contains("unchanged"));
+  image::Image map = io::read_image(folder.path() / "map.png");
+  map.texels.floats()[0] = 0.6f;
+  io::write_image(folder.path() / "a/maps/n.png", map, image::Depth::unorm8);
+  EXPECT_FALSE(summary(folder, command).contains("unchanged"));
+  // What is to be verified is baked.
+  std::vector<std::string> verified = command;
+  verified.emplace_back("--verify");
+  EXPECT_TRUE(summary(folder, verified).contains("verified"));
+}
+
+TEST(BakeMany, TileThatFailsLeavesTheOthersToBeDone) {
+  const Folder folder;
+  write_udim_scene(folder);
+  fs::create_directory(folder.path() / "n.1002.png");
+  const Outcome run = bake(folder, {"u.json", "-o", "n.<UDIM>.png", "--json"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.error, HasSubstr("n.1002.png: is a folder"));
+  EXPECT_THAT(run.error, HasSubstr("1 of 4 tiles failed"));
+  const auto tiles = nlohmann::json::parse(run.out)["tiles"];
+  ASSERT_EQ(tiles.size(), 4u);
+  EXPECT_TRUE(tiles[1].contains("error"));
+  EXPECT_EQ(tiles[3]["output"], "n.1012.png");
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "n.1012.png"));
 }
 
 } // namespace

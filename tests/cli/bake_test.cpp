@@ -243,7 +243,7 @@ TEST(BakeLostDetail, RefusesWhatCannotBeMeantBeforeAnythingIsWritten) {
       {{"--roughness", "r.png", "--samples", "2", "--space", "world"}, 2, "--space tangent"},
       {{"--roughness", "r.png", "--samples", "2", "--base-roughness", "1.5"}, 2, "from 0 to 1"},
       {{"--roughness", "r.png", "--samples", "2", "--base-roughness", "gone.png"}, 1, "gone.png"},
-      {{"--roughness", "o.png", "--samples", "2"}, 2, "written twice"},
+      {{"--roughness", "o.png", "--samples", "2"}, 2, "is already written by --output"},
       {{"--roughness", "n.png", "--samples", "2"}, 1, "would replace a file of the scene"},
       {{"--roughness", "no/r.png", "--samples", "2"}, 1, "no"},
       {{"--roughness", "r.jpg", "--samples", "2"}, 1, "r.jpg"},

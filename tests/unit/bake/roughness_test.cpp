@@ -131,7 +131,7 @@ TEST(RoughnessMap, IsTheBaseWhereNothingVariesAndIsPadded) {
   }
 }
 
-TEST(RoughnessMap, TakesTheMeanAlphaOfABaseMap) {
+TEST(RoughnessMap, TakesTheMeanVarianceOfABaseMap) {
   image::Image base = image::make_image(4, 4, 3);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x) {
@@ -141,7 +141,8 @@ TEST(RoughnessMap, TakesTheMeanAlphaOfABaseMap) {
   const BaseRoughness roughness(base);
   EXPECT_NEAR(roughness.alpha(0, 0, 4, 4), 0.04, 1e-6);
   EXPECT_NEAR(roughness.alpha(1, 2, 4, 4), 0.36, 1e-6);
-  EXPECT_NEAR(roughness.alpha(0, 0, 2, 2), 0.2, 1e-6); // of 0.04 and 0.36
+  // Alpha squared is twice a variance of slopes, and those average: of 0.04 and 0.36.
+  EXPECT_NEAR(roughness.alpha(0, 0, 2, 2), std::sqrt(0.5 * (0.04 * 0.04 + 0.36 * 0.36)), 1e-6);
 }
 
 TEST(NormalLevel, IsTheBakeOfHalfTheSizeWithTwiceTheSamples) {
