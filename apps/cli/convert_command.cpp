@@ -197,7 +197,7 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
     refuse_to_replace(command.maps, roughness);
   }
   Console console("converting", command.quiet);
-  const image::Image map = io::read_image(input);
+  image::Image map = io::read_image(input);
   stop_if_interrupted();
   if (command.conversion.from.kind == maps::Kind::normal && command.conversion.from.channels.count == 0)
     maps::require_normals(map, input);
@@ -206,7 +206,7 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
   if (command.mesh.empty()) {
     if (const auto recoding = maps::Recoding::of(map, c, input))
       return recode_file(command, map, *recoding, c.depth, input, output);
-    made = maps::convert(map, c, input);
+    made = maps::convert(std::move(map), c, input);
   } else {
     const maps::OverMesh job{.model = command.mesh,
                              .uv_set = command.uv_set,
