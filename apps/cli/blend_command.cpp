@@ -8,7 +8,6 @@
 #include "map_options.hpp"
 #include "maps/blend.hpp"
 #include "maps/convert.hpp"
-#include "maps/inspect.hpp"
 #include "options.hpp"
 #include "output_names.hpp"
 
@@ -78,7 +77,7 @@ void check_count(const char* option, std::size_t values, std::size_t details) {
 
 image::Image read_normals(const std::string& file, const maps::Form& form) {
   const image::Image map = io::read_image(file);
-  if (form.channels.count == 0) maps::require_normals(map, file);
+  maps::require_normals(map, form, maps::Inward::refused, file);
   return maps::read_slopes(map, form, file).map;
 }
 

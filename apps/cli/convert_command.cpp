@@ -8,7 +8,6 @@
 #include "io/image_file.hpp"
 #include "map_options.hpp"
 #include "maps/convert.hpp"
-#include "maps/inspect.hpp"
 #include "maps/over_mesh.hpp"
 #include "maps/recode.hpp"
 #include "options.hpp"
@@ -199,8 +198,6 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
   Console console("converting", command.quiet);
   image::Image map = io::read_image(input);
   stop_if_interrupted();
-  if (command.conversion.from.kind == maps::Kind::normal && command.conversion.from.channels.count == 0)
-    maps::require_normals(map, input);
   const maps::Conversion c = conversion_for(command, map, output);
   maps::Converted made;
   if (command.mesh.empty()) {

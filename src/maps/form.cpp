@@ -171,20 +171,17 @@ void require_normals(const image::Image& map, const Form& form, Inward inward,
   constexpr int most_a_side = 256;
   const int step_x = (map.width + most_a_side - 1) / most_a_side;
   const int step_y = (map.height + most_a_side - 1) / most_a_side;
-  // Filtered and coarsely rounded vectors are somewhat short or long; those of colours are anything.
-  constexpr float shortest = 0.5f, longest = 1.5f;
   int texels = 0, far_from_unit = 0, into_surface = 0;
   for (int y = 0; y < map.height; y += step_y)
     for (int x = 0; x < map.width; x += step_x) {
       const auto component = [&](std::size_t i) { return 2 * map.at(x, y, layout.channel[i]) - 1; };
       const vec3<float> v{component(0), component(1), component(2)};
-      const float squared = dot(v, v);
       ++texels;
-      far_from_unit += squared >= shortest * shortest && squared <= longest * longest ? 0 : 1;
+      far_from_unit += std::abs(length(v) - 1) < near_unit ? 0 : 1;
       into_surface += v.z > 0 ? 0 : 1;
     }
-  const auto refuse = [&](int count, const char* what, const char* remedy) {
-    if (2 * count <= texels) return;
+  const auto refuse = [&](int count, double most_share, const char* what, const char* remedy) {
+    if (count <= most_share * texels) return;
     throw InputError(
         {.file = file,
          .problem = fmt::format("is no {}: {} % of its texels are {}",
@@ -192,9 +189,10 @@ void require_normals(const image::Image& map, const Form& form, Inward inward,
                                 100 * count / texels, what),
          .remedy = remedy});
   };
-  refuse(far_from_unit, "far from unit vectors", "say what it holds, or which of its channels are meant");
+  refuse(far_from_unit, 1 - least_unit_share, "far from unit vectors",
+         "say what it holds, or which of its channels are meant");
   if (inward == Inward::refused)
-    refuse(into_surface, "vectors that point into the surface", "is it one of an object's normals?");
+    refuse(into_surface, 0.5, "vectors that point into the surface", "is it one of an object's normals?");
 }
 
 Slopes read_slopes(const image::Image& map, const Form& form, const std::filesystem::path& file) {

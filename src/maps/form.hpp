@@ -56,6 +56,11 @@ struct Slopes {
 [[nodiscard]] Slopes read_slopes(const image::Image& map, const Form& form,
                                  const std::filesystem::path& file);
 
+/// Vectors of normal maps are near unit length, within this of 1, but for somewhat short ones, where they
+/// were filtered, and backgrounds: 0.7 to 1 of them in maps that are known, where colours have up to 0.66.
+inline constexpr double near_unit = 0.2;
+inline constexpr double least_unit_share = 0.6;
+
 /// Whether vectors that point into the surface are those of a map.
 enum class Inward {
   allowed, ///< in object space

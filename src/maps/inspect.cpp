@@ -1,13 +1,10 @@
 #include "maps/inspect.hpp"
 
-#include "diagnostic/error.hpp"
 #include "maps/resample.hpp"
 #include "stage/bands.hpp"
 
 #include <surfgrad/derivative.hpp>
 #include <surfgrad/moments.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +16,6 @@ namespace {
 
 // Bounds were set by maps whose conventions are known: normal maps have 0.7 to 1 of their vectors near unit
 // length (atlases the less for their backgrounds), colours up to 0.66, and those lie about the diagonal.
-constexpr double near_unit = 0.2;
-constexpr double least_unit_share = 0.6;
 constexpr double object_unit_share = 0.9; // nothing else tells object-space maps from colours
 constexpr double least_mean_z = 0.4;
 constexpr double most_mean_sideways = 0.35;
@@ -68,16 +63,14 @@ void look_at_channels(const image::Image& map, Inspection& result) {
       map.depth == image::Depth::unorm16 && !is_constant && (are_multiples[0] || are_multiples[1]);
 }
 
-/// Of every so many rows.
-void look_at_vectors(const image::Image& map, int row_step, Inspection& result) {
+void look_at_vectors(const image::Image& map, Inspection& result) {
   double lengths = 0;
   double squares = 0;
   vec3<double> sum{0, 0, 0};
   std::int64_t unit = 0;
   std::int64_t unit_inward = 0;
   std::vector<float> row(map.index(map.width, 0));
-  int rows = 0;
-  for (int y = 0; y < map.height; y += row_step, ++rows) {
+  for (int y = 0; y < map.height; ++y) {
     stage::copy_values(map, y, 1, row.data());
     for (int x = 0; x < map.width; ++x) {
       const float* texel = row.data() + map.index(x, 0);
@@ -92,7 +85,7 @@ void look_at_vectors(const image::Image& map, int row_step, Inspection& result) 
       sum = sum + v;
     }
   }
-  const double count = double{1.0 * map.width} * rows;
+  const double count = double{1.0 * map.width} * map.height;
   result.mean_length = lengths / count;
   result.length_deviation = std::sqrt(squares / count);
   result.unit_share = static_cast<double>(unit) / count;
@@ -301,7 +294,7 @@ Inspection inspect(const image::Image& map, const image::Image* heights, const s
     return result;
   }
   if (colors >= 3) {
-    look_at_vectors(map, 1, result);
+    look_at_vectors(map, result);
   } else {
     result.look = Look::tangent_normals; // what else would have two
     result.look_confidence = Confidence::likely;
@@ -315,18 +308,6 @@ Inspection inspect(const image::Image& map, const image::Image* heights, const s
   if (is_down) result.tilt.y = -result.tilt.y;
   if (heights != nullptr) result.heights = compare(tamed(slopes.map), *heights);
   return result;
-}
-
-void require_normals(const image::Image& map, const std::filesystem::path& file) {
-  if ((map.has_alpha ? map.channels - 1 : map.channels) < 3) return;
-  Inspection result;
-  look_at_vectors(map, std::max(1, map.height / 256), result);
-  if (result.look == Look::no_normals)
-    throw InputError(
-        {.file = file,
-         .problem = fmt::format("is no map of normals: {:.0f} % of its vectors have a length near 1",
-                                100 * result.unit_share),
-         .remedy = "say with --from what it is"});
 }
 
 } // namespace surfgrad::maps

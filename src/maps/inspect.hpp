@@ -82,7 +82,4 @@ struct Inspection {
 [[nodiscard]] Inspection inspect(const image::Image& map, const image::Image* heights,
                                  const std::filesystem::path& file);
 
-/// Throws InputError for a map of three channels whose vectors are of any length: no map of normals.
-void require_normals(const image::Image& map, const std::filesystem::path& file);
-
 } // namespace surfgrad::maps

@@ -37,11 +37,10 @@ image::Image waves(int side, image::Depth depth = image::Depth::unorm16) {
   return map;
 }
 
-/// No direction of unit length.
+/// Directions of any length.
 image::Image colour() {
-  image::Image map = test::constant_image(8, 8, {0.9, 0.2, 0.1});
-  map.depth = image::Depth::unorm8;
-  return map;
+  test::Random random(1841);
+  return test::random_image(random, 8, 8, 3, image::Depth::unorm8);
 }
 
 void write_map(const Folder& folder, const std::string& name, const image::Image& map) {
@@ -149,7 +148,7 @@ TEST(ConvertCommand, RefusesWhatItCannotDoBeforeItWrites) {
       {{"n.png", "-o", "o.jpg"}, 1, ".png"},
       {{"n.png", "-o", "o.png", "--depth", "half"}, 1, "o.png"},
       {{"none.png", "-o", "o.png"}, 1, "none.png: no such file"},
-      {{"colour.png", "-o", "o.png"}, 1, "colour.png: is no map of normals"},
+      {{"colour.png", "-o", "o.png"}, 1, "colour.png: is no normal map: "},
       {{"n.png", "-o", "n.png", "--green", "down"}, 1, "would replace a map that is read"},
       {{"n.png", "-o", "o.png", "--from-channels", "rga"}, 1, "n.png: has no channel a; it has r, g, b"},
       {{"n.png", "-o", "o.png", "--from-channels", "rr"}, 2, "\"rr\""},
