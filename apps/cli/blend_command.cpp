@@ -130,7 +130,7 @@ nlohmann::json blend_file(const BlendCommand& command, const std::vector<maps::D
   Console console("blending", command.quiet);
   image::Image base = read_normals(input.string(), command.base);
   check_sizes(command, details, base, input);
-  const image::Image sum = maps::blended(std::move(base), details, command.method);
+  image::Image sum = maps::blended(std::move(base), details, command.method);
   maps::Form to = command.to;
   to.is_filled = io::lower_extension(output) == ".png";
   // Slopes themselves, for the conversion that writes them: floats hold them as they are.
@@ -138,7 +138,7 @@ nlohmann::json blend_file(const BlendCommand& command, const std::vector<maps::D
                               .to = to,
                               .depth = depth,
                               .dither = command.dither.value_or(depth == image::Depth::unorm8)};
-  const maps::Converted made = maps::convert(sum, conversion, input);
+  const maps::Converted made = maps::convert(std::move(sum), conversion, input);
   {
     const Unbroken whole_file;
     stop_if_interrupted();

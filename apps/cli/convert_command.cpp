@@ -196,14 +196,14 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
     refuse_to_replace(command.maps, roughness);
   }
   Console console("converting", command.quiet);
-  const image::Image map = io::read_image(input);
+  image::Image map = io::read_image(input);
   stop_if_interrupted();
   const maps::Conversion c = conversion_for(command, map, output);
   maps::Converted made;
   if (command.mesh.empty()) {
     if (const auto recoding = maps::Recoding::of(map, c, input))
       return recode_file(command, map, *recoding, c.depth, input, output);
-    made = maps::convert(map, c, input);
+    made = maps::convert(std::move(map), c, input);
   } else {
     const maps::OverMesh job{.model = command.mesh,
                              .uv_set = command.uv_set,

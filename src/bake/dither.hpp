@@ -6,13 +6,29 @@
 
 namespace surfgrad::bake {
 
-/// Rounds a map's values in [0, 1] to codes of 8 bits (code / 255), up or down by a mask of blue noise: their
-/// means over a few texels are those of the values, where rounding to the nearest code leaves terraces. Flat
-/// texels take the nearest code, all the same one. Works on bands on their way to a sink.
+/// Rounds values in [0, 1] to codes of 8 bits (code / 255), up or down by a mask of blue noise: their means
+/// over a few texels are those of the values, where rounding to the nearest code leaves terraces. Flat texels
+/// take the nearest code, all the same one.
+class DitherMask {
+ public:
+  /// flat  the texel to leave alone; pictures have as many channels as it has, or one more; up to four
+  explicit DitherMask(std::vector<float> flat);
+
+  /// A row of a picture.
+  ///
+  /// y   counted in the whole picture from its bottom
+  /// to  may be `from`
+  void round_row(const float* from, int width, int channels, int y, float* to) const;
+
+ private:
+  std::vector<float> flat_;
+  std::vector<float> thresholds_; ///< in (0, 1)
+};
+
+/// The mask on bands on their way to a sink.
 class Dither {
  public:
   /// height  of the whole map
-  /// flat    the texel to leave alone; pictures have up to four channels
   Dither(int height, std::vector<float> flat, stage::BandSink take);
 
   /// The next rows from the top downwards.
@@ -20,9 +36,8 @@ class Dither {
 
  private:
   int rows_left_;
-  std::vector<float> flat_;
+  DitherMask mask_;
   stage::BandSink take_;
-  std::vector<float> thresholds_; ///< in (0, 1), the mask's
   image::Image band_{};
 };
 

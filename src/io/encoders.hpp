@@ -2,6 +2,7 @@
 
 // Internal to src/io: one encoder a format, and what they share. Use io/image_writer.hpp.
 
+#include "image/codes.hpp"
 #include "io/byte_sink.hpp"
 #include "io/image_writer.hpp"
 
@@ -97,9 +98,6 @@ class QuietSink {
   std::exception_ptr failure_{};
 };
 
-/// The nearest integer code to each value: below 0 and NaN give 0, above 1 gives the largest code.
-/// `codes` has room for all.
-void to_codes(std::span<const float> values, std::uint8_t* codes);
-void to_codes(std::span<const float> values, std::uint16_t* codes);
+using image::to_codes;
 
 } // namespace surfgrad::io::codec

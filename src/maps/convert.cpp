@@ -1,16 +1,15 @@
 #include "maps/convert.hpp"
 
-#include "bake/dither.hpp"
 #include "image/parallel.hpp"
 #include "maps/integrate.hpp"
 #include "maps/recode.hpp"
 #include "maps/resample.hpp"
-#include "stage/bands.hpp"
 
 #include <surfgrad/moments.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace surfgrad::maps {
@@ -39,13 +38,6 @@ vec2<double> remove_mean(image::Image& slopes) {
     values[i + 1] = static_cast<float>(values[i + 1] - mean.y);
   }
   return mean;
-}
-
-/// Rounds to codes of 8 bits.
-image::Image dithered(const image::Image& map, const std::vector<float>& flat) {
-  image::Image result = image::make_image(map.width, map.height, map.channels, map.depth);
-  bake::Dither(map.height, flat, stage::into(result)).add(map);
-  return result;
 }
 
 /// Slopes, their squares and their product: what averages to moments.
@@ -89,7 +81,8 @@ class Converter {
  public:
   Converter(const Conversion& conversion, const std::filesystem::path& file) : c_(conversion), file_(file) {}
 
-  Converted run(const image::Image& map) {
+  /// read  is called once the map is read for the last time
+  Converted run(const image::Image& map, const std::function<void()>& read) {
     size_ = c_.width > 0 ? Size{c_.width, c_.height} : Size{map.width, map.height};
     if (const auto recoding = Recoding::of(map, c_, file_)) {
       result_.map = recoding->rows(0, map.height);
@@ -99,14 +92,17 @@ class Converter {
     if (c_.from.kind == Kind::normal && c_.to.kind == Kind::normal && !c_.retile && c_.width == 0) {
       const Arrangement arrangement = arrangement_of(map, c_.from, c_.to, file_);
       result_.is_rearranged = arrangement.is_only_that;
-      if (result_.is_rearranged) result_.map = finished(rearranged(map, arrangement));
+      if (result_.is_rearranged) result_.map = rearranged(map, arrangement, c_.to, precision());
     }
     if (!result_.is_rearranged || c_.mips || c_.base_roughness) {
       if (c_.from.kind == Kind::height) {
-        from_heights(read_heights(map, c_.from, file_));
+        image::Image heights = read_heights(map, c_.from, file_);
+        read();
+        from_heights(std::move(heights));
       } else {
         require_normals(map, c_.from, Inward::refused, file_);
         Slopes slopes = read_slopes(map, c_.from, file_);
+        read();
         result_.inward = slopes.inward;
         from_slopes(std::move(slopes.map));
       }
@@ -115,11 +111,7 @@ class Converter {
   }
 
  private:
-  [[nodiscard]] image::Image finished(image::Image map) const {
-    map.depth = c_.depth;
-    const bool dithers = c_.dither && c_.depth == image::Depth::unorm8;
-    return dithers ? dithered(map, flat_texel(c_.to, c_.depth)) : map;
-  }
+  [[nodiscard]] Precision precision() const { return {c_.depth, c_.dither}; }
 
   [[nodiscard]] std::vector<Size> levels() const {
     std::vector<Size> sizes{size_};
@@ -131,11 +123,13 @@ class Converter {
   void from_heights(image::Image heights) {
     if (c_.to.kind == Kind::height) {
       take_levels(std::move(heights),
-                  [&](const image::Image& level) { return write_heights(level, c_.to, c_.depth); });
+                  [&](const image::Image& level) { return write_heights(level, c_.to, precision()); });
       return;
     }
     result_.slope_scale = c_.slope_scale.value_or(usual_relief * heights.width);
-    from_slopes(slopes_of_heights(std::move(heights), c_.kernel, c_.border, result_.slope_scale));
+    // By itself, so that the heights are gone before the slopes are used.
+    image::Image slopes = slopes_of_heights(std::move(heights), c_.kernel, c_.border, result_.slope_scale);
+    from_slopes(std::move(slopes));
   }
 
   void from_slopes(image::Image slopes) {
@@ -151,7 +145,7 @@ class Converter {
             roughness_of(resampled(squares, size.width, size.height, c_.border), *c_.base_roughness));
     }
     take_levels(std::move(slopes),
-                [&](const image::Image& level) { return write_slopes(level, c_.to, c_.depth); });
+                [&](const image::Image& level) { return write_slopes(level, c_.to, precision()); });
   }
 
   void to_heights(image::Image slopes) {
@@ -166,7 +160,7 @@ class Converter {
       result_.slope_scale = 1 / fill_range(heights);
     }
     take_levels(std::move(integrated.heights),
-                [&](const image::Image& level) { return write_heights(level, c_.to, c_.depth); });
+                [&](const image::Image& level) { return write_heights(level, c_.to, precision()); });
   }
 
   /// write(picture) makes a Written of a picture in each size.
@@ -179,11 +173,11 @@ class Converter {
       Written written = write(
           resampled(is_last ? std::move(picture) : picture, sizes[i].width, sizes[i].height, c_.border));
       if (i == 0) {
-        result_.map = finished(std::move(written.map));
+        result_.map = std::move(written.map);
         result_.clamped = written.clamped;
         result_.steepest = written.steepest;
       } else {
-        result_.mips.push_back(finished(std::move(written.map)));
+        result_.mips.push_back(std::move(written.map));
       }
     }
   }
@@ -197,7 +191,11 @@ class Converter {
 } // namespace
 
 Converted convert(const image::Image& map, const Conversion& conversion, const std::filesystem::path& file) {
-  return Converter(conversion, file).run(map);
+  return Converter(conversion, file).run(map, [] {});
+}
+
+Converted convert(image::Image&& map, const Conversion& conversion, const std::filesystem::path& file) {
+  return Converter(conversion, file).run(map, [&map] { map.texels = {}; });
 }
 
 } // namespace surfgrad::maps

@@ -57,5 +57,8 @@ struct Converted {
 /// Same result for any number of threads. Throws InputError as read_slopes and read_heights do.
 [[nodiscard]] Converted convert(const image::Image& map, const Conversion& conversion,
                                 const std::filesystem::path& file);
+/// The same, for a map whose texels are needed no more: they go as soon as they are read.
+[[nodiscard]] Converted convert(image::Image&& map, const Conversion& conversion,
+                                const std::filesystem::path& file);
 
 } // namespace surfgrad::maps

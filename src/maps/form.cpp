@@ -3,6 +3,7 @@
 #include "bake/format.hpp"
 #include "diagnostic/error.hpp"
 #include "image/parallel.hpp"
+#include "maps/map_rows.hpp"
 #include "stage/bands.hpp"
 
 #include <surfgrad/derivative.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -99,34 +101,52 @@ void require_finite(const image::Image& map, const std::filesystem::path& file) 
   }
 }
 
-/// Calls body(texel of `map`, texel of `result`) for all of them, in parallel by rows. Returns the sums over
-/// the rows of what body returns.
+/// Calls body(texel of `map`, texel of the result) for all of them, in parallel by rows. Returns the sum of
+/// what body returns.
 template <class Body>
-std::int64_t each_texel(const image::Image& map, image::Image& result, const Body& body) {
+std::int64_t each_texel(const image::Image& map, MapRows& result, const Body& body) {
   const std::size_t from_row = map.index(0, 1);
-  const std::size_t to_row = result.index(0, 1);
   const auto from_step = static_cast<std::size_t>(map.channels);
-  const auto to_step = static_cast<std::size_t>(result.channels);
-  float* const values = result.texels.floats().data();
+  const auto to_step = static_cast<std::size_t>(result.channels());
   std::vector<std::int64_t> counts(static_cast<std::size_t>(map.height));
   image::in_parallel(counts.size(), static_cast<std::size_t>(map.width), [&](std::size_t y) {
-    std::vector<float> scratch(from_row);
+    thread_local std::vector<float> scratch;
+    thread_local std::vector<float> row;
+    scratch.resize(from_row);
+    row.resize(static_cast<std::size_t>(map.width) * to_step);
     const float* from = map.texels.read(y * from_row, from_row, scratch.data());
-    float* to = values + y * to_row;
+    float* to = row.data();
     for (int x = 0; x < map.width; ++x, from += from_step, to += to_step) counts[y] += body(from, to);
+    result.put(static_cast<int>(y), row);
   });
   std::int64_t sum = 0;
   for (const std::int64_t count : counts) sum += count;
   return sum;
 }
 
-/// The same, to an image with these channels.
-struct Target {
-  int channels;
-  image::Depth depth;
-};
-image::Image of_the_size_of(const image::Image& map, Target target) {
-  return image::make_image(map.width, map.height, target.channels, target.depth);
+/// Puts components where a form has them, on white.
+void put_components(const std::array<float, 3>& components, const Channels& layout, int channels,
+                    float* texel) {
+  std::fill_n(texel, channels, 1.0f);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(layout.count); ++i)
+    texel[layout.channel[i]] = components[i];
+}
+
+/// The texel of a map without bumps, which is not dithered.
+std::vector<float> flat_texel(const Form& form, image::Depth depth) {
+  const Channels layout = layout_out(form);
+  std::array<float, 3> components{form.is_depth ? 1.0f : 0.0f};
+  if (form.kind != Kind::height) format_of(form, layout.count, depth).encode({0, 0, 1}, components.data());
+  std::vector<float> texel(static_cast<std::size_t>(channels_out(form, layout)));
+  put_components(components, layout, static_cast<int>(texel.size()), texel.data());
+  return texel;
+}
+
+/// A picture of the size of another one to be written with this form.
+MapRows rows_for(const image::Image& map, const Form& form, int channels, Precision precision) {
+  std::optional<std::vector<float>> flat;
+  if (precision.dithers) flat = flat_texel(form, precision.depth);
+  return {map.width, map.height, channels, precision.depth, std::move(flat)};
 }
 
 } // namespace
@@ -184,8 +204,8 @@ Slopes read_slopes(const image::Image& map, const Form& form, const std::filesys
   Slopes slopes;
   slopes.is_two_channels = layout.count == 2;
   const auto components = static_cast<std::size_t>(layout.count);
-  slopes.map = of_the_size_of(map, {2, image::Depth::float32});
-  slopes.inward = each_texel(map, slopes.map, [&](const float* from, float* to) {
+  MapRows rows(map.width, map.height, 2, image::Depth::float32);
+  slopes.inward = each_texel(map, rows, [&](const float* from, float* to) {
     std::array<float, 3> texel{};
     for (std::size_t i = 0; i < components; ++i) texel[i] = from[layout.channel[i]];
     const vec3<double> normal = format.decode(texel.data(), integers, most);
@@ -194,35 +214,35 @@ Slopes read_slopes(const image::Image& map, const Form& form, const std::filesys
     to[1] = static_cast<float>(slope.y);
     return layout.count == 3 && !(normal.z > 0);
   });
+  slopes.map = rows.take();
   return slopes;
 }
 
 image::Image read_heights(const image::Image& map, const Form& form, const std::filesystem::path& file) {
   const int channel = layout_in(map, form, file).channel[0];
   require_finite(map, file);
-  image::Image heights = of_the_size_of(map, {1, image::Depth::float32});
+  MapRows heights(map.width, map.height, 1, image::Depth::float32);
   each_texel(map, heights, [&](const float* from, float* to) {
     to[0] = form.is_depth ? 1 - from[channel] : from[channel];
     return 0;
   });
-  return heights;
+  return heights.take();
 }
 
-Written write_slopes(const image::Image& slopes, const Form& form, image::Depth depth) {
+Written write_slopes(const image::Image& slopes, const Form& form, Precision precision) {
   const Channels layout = layout_out(form);
-  const bake::Format format = format_of(form, layout.count, depth);
+  const bake::Format format = format_of(form, layout.count, precision.depth);
+  const int channels = channels_out(form, layout);
+  MapRows rows = rows_for(slopes, form, channels, precision);
   Written written;
-  written.map = of_the_size_of(slopes, {channels_out(form, layout), depth});
-  const auto channels = static_cast<std::size_t>(written.map.channels);
-  const auto components = static_cast<std::size_t>(layout.count);
-  written.clamped = each_texel(slopes, written.map, [&](const float* from, float* to) {
-    std::array<float, 3> texel{};
+  written.clamped = each_texel(slopes, rows, [&](const float* from, float* to) {
+    std::array<float, 3> components{};
     const bake::Format::Encoded encoded = format.encode(
-        normal_from_derivative(vec2<float>{form.flips_x ? -from[0] : from[0], from[1]}), texel.data());
-    std::fill_n(to, channels, 1.0f);
-    for (std::size_t i = 0; i < components; ++i) to[layout.channel[i]] = texel[i];
+        normal_from_derivative(vec2<float>{form.flips_x ? -from[0] : from[0], from[1]}), components.data());
+    put_components(components, layout, channels, to);
     return encoded.clamped;
   });
+  written.map = rows.take();
   std::vector<float> row(slopes.index(slopes.width, 0));
   for (int y = 0; y < slopes.height; ++y) {
     stage::copy_values(slopes, y, 1, row.data());
@@ -231,19 +251,19 @@ Written write_slopes(const image::Image& slopes, const Form& form, image::Depth 
   return written;
 }
 
-Written write_heights(const image::Image& heights, const Form& form, image::Depth depth) {
+Written write_heights(const image::Image& heights, const Form& form, Precision precision) {
   const Channels layout = layout_out(form);
+  const int channels = channels_out(form, layout);
+  const bool integers = image::is_integer(precision.depth);
+  MapRows rows = rows_for(heights, form, channels, precision);
   Written written;
-  written.map = of_the_size_of(heights, {channels_out(form, layout), depth});
-  const auto channels = static_cast<std::size_t>(written.map.channels);
-  const bool integers = image::is_integer(depth);
-  written.clamped = each_texel(heights, written.map, [&](const float* from, float* to) {
+  written.clamped = each_texel(heights, rows, [&](const float* from, float* to) {
     const float height = form.is_depth ? 1 - from[0] : from[0];
     const bool outside = integers && !(height >= 0 && height <= 1);
-    std::fill_n(to, channels, 1.0f);
-    to[layout.channel[0]] = integers ? std::clamp(height, 0.0f, 1.0f) : height;
+    put_components({integers ? std::clamp(height, 0.0f, 1.0f) : height, 0, 0}, layout, channels, to);
     return outside;
   });
+  written.map = rows.take();
   return written;
 }
 
@@ -276,11 +296,11 @@ Arrangement arrangement_of(const image::Image& map, const Form& from, const Form
   return result;
 }
 
-image::Image rearranged(const image::Image& map, const Arrangement& arrangement) {
-  image::Image result = of_the_size_of(map, {arrangement.channels, map.depth});
-  result.has_alpha = arrangement.has_alpha;
-  const auto channels = static_cast<std::size_t>(result.channels);
-  each_texel(map, result, [&](const float* texel, float* made) {
+image::Image rearranged(const image::Image& map, const Arrangement& arrangement, const Form& to,
+                        Precision precision) {
+  MapRows rows = rows_for(map, to, arrangement.channels, precision);
+  const auto channels = static_cast<std::size_t>(arrangement.channels);
+  each_texel(map, rows, [&](const float* texel, float* made) {
     for (std::size_t c = 0; c < channels; ++c) {
       const Arrangement::Source& source = arrangement.sources[c];
       const float value = source.channel < 0 ? 1.0f : texel[source.channel];
@@ -288,13 +308,9 @@ image::Image rearranged(const image::Image& map, const Arrangement& arrangement)
     }
     return 0;
   });
+  image::Image result = rows.take();
+  result.has_alpha = arrangement.has_alpha;
   return result;
-}
-
-std::vector<float> flat_texel(const Form& form, image::Depth depth) {
-  image::Image one = image::make_image(1, 1, form.kind == Kind::height ? 1 : 2, image::Depth::float32);
-  return (form.kind == Kind::height ? write_heights(one, form, depth) : write_slopes(one, form, depth))
-      .map.texels.floats();
 }
 
 } // namespace surfgrad::maps

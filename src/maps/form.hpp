@@ -77,18 +77,24 @@ void require_normals(const image::Image& map, const Form& form, Inward inward,
 [[nodiscard]] image::Image read_heights(const image::Image& map, const Form& form,
                                         const std::filesystem::path& file);
 
+/// What a file is to hold its values with.
+struct Precision {
+  image::Depth depth = image::Depth::unorm16;
+  bool dithers = false; ///< of 8 bits: blue noise in place of terraces, but for flat texels
+};
+
 /// A map to be written.
 struct Written {
-  image::Image map{}; ///< floats, of integer depths within [0, 1]
+  image::Image map{}; ///< codes, of integer depths
   std::int64_t clamped =
       0; ///< texels beyond what the form can hold: steeper than the range, heights outside 0 to 1
   double steepest = 0; ///< largest slope along an axis
 };
 
-/// Slopes as normals or derivatives. `depth` is what the file will have; its codes are not yet rounded.
-[[nodiscard]] Written write_slopes(const image::Image& slopes, const Form& form, image::Depth depth);
+/// Slopes as normals or derivatives.
+[[nodiscard]] Written write_slopes(const image::Image& slopes, const Form& form, Precision precision);
 /// Heights, one channel.
-[[nodiscard]] Written write_heights(const image::Image& heights, const Form& form, image::Depth depth);
+[[nodiscard]] Written write_heights(const image::Image& heights, const Form& form, Precision precision);
 
 /// Where the channels of a map go that is only rearranged.
 struct Arrangement {
@@ -109,9 +115,9 @@ struct Arrangement {
 
 /// Normals in another arrangement of channels and with another direction of x and y, their vectors as they
 /// are: the same texels. Flips of codes are their own inverses.
-[[nodiscard]] image::Image rearranged(const image::Image& map, const Arrangement& arrangement);
-
-/// The texel of a map without bumps.
-[[nodiscard]] std::vector<float> flat_texel(const Form& form, image::Depth depth);
+///
+/// to  as arrangement_of was asked
+[[nodiscard]] image::Image rearranged(const image::Image& map, const Arrangement& arrangement, const Form& to,
+                                      Precision precision);
 
 } // namespace surfgrad::maps

@@ -43,39 +43,35 @@ double fade(double shown, double steepness) {
   return std::min(1.0, shown / (least_share * least_share * steepness));
 }
 
-Integrated integrate_repeated(image::Image slopes, Kernel kernel) {
-  const int width = slopes.width;
-  const int height = slopes.height;
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  };
-  // Both slopes as one complex picture: their spectra are its symmetric halves.
-  std::vector<Complex> spectrum(at(0, height));
-  const float* const values = slopes.texels.floats().data();
-  for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] = {values[2 * i], values[2 * i + 1]};
-  slopes = {};
-  fourier(spectrum, width, height);
-  Integrated result;
-  const double texels = static_cast<double>(width) * height;
-  result.tilt = {spectrum[0].real() / texels, spectrum[0].imag() / texels};
-  double all = 0;
-  double left_out = 0;
+/// Turns the spectrum of ds + i dt into that of the heights, and tells of what it leaves out.
+void divide_by_slopes(std::vector<float>& pairs, int width, int height, Kernel kernel, Integrated& result) {
   const Waves s(kernel, width);
   const Waves t(kernel, height);
-  for (int l = 0; l < height; ++l) {
+  struct Sums {
+    double all = 0;
+    double left_out = 0;
+  };
+  std::vector<Sums> rows(static_cast<std::size_t>(height / 2 + 1));
+  const auto at = [&](int k, int l) {
+    return pairs.data() +
+           2 * (static_cast<std::size_t>(l) * static_cast<std::size_t>(width) + static_cast<std::size_t>(k));
+  };
+  // A wave and its mirror image together: ds and dt are the spectrum's symmetric halves.
+  image::in_parallel(rows.size(), static_cast<std::size_t>(width), [&](std::size_t row) {
+    const int l = static_cast<int>(row);
+    const int l_back = (height - l) % height;
     for (int k = 0; k < width; ++k) {
       const int k_back = (width - k) % width;
-      const int l_back = (height - l) % height;
-      if (at(k_back, l_back) < at(k, l)) continue; // done with its partner
-      const Complex a = spectrum[at(k, l)];
-      const Complex b = std::conj(spectrum[at(k_back, l_back)]);
+      if (l_back == l && k_back < k) continue; // done with its partner
+      float* const here = at(k, l);
+      float* const back = at(k_back, l_back);
+      const Complex a(here[0], here[1]);
+      const Complex b(back[0], -back[1]);
       const Complex p = 0.5 * (a + b);
       const Complex q = Complex(0, -0.5) * (a - b);
       const double along_s = s.along[static_cast<std::size_t>(k)] * t.across[static_cast<std::size_t>(l)];
       const double along_t = t.along[static_cast<std::size_t>(l)] * s.across[static_cast<std::size_t>(k)];
       const double square = along_s * along_s + along_t * along_t;
-      const double share = std::norm(p) + std::norm(q);
-      const double count = at(k_back, l_back) == at(k, l) ? 1 : 2;
       Complex h = 0;
       if (k != 0 || l != 0) {
         // The sine of pi is no exact zero.
@@ -84,18 +80,39 @@ Integrated integrate_repeated(image::Image slopes, Kernel kernel) {
               fade(square, s.square[static_cast<std::size_t>(k)] + t.square[static_cast<std::size_t>(l)]);
           h = kept * Complex(0, -1) * (along_s * p + along_t * q) / square;
         }
-        all += count * share;
-        left_out += count * (std::norm(p - Complex(0, along_s) * h) + std::norm(q - Complex(0, along_t) * h));
+        const double count = here == back ? 1 : 2;
+        rows[row].all += count * (std::norm(p) + std::norm(q));
+        rows[row].left_out +=
+            count * (std::norm(p - Complex(0, along_s) * h) + std::norm(q - Complex(0, along_t) * h));
       }
-      spectrum[at(k, l)] = h;
-      spectrum[at(k_back, l_back)] = std::conj(h);
+      here[0] = static_cast<float>(h.real());
+      here[1] = static_cast<float>(h.imag());
+      back[0] = static_cast<float>(h.real());
+      back[1] = static_cast<float>(-h.imag());
     }
+  });
+  Sums sums;
+  for (const Sums& row : rows) {
+    sums.all += row.all;
+    sums.left_out += row.left_out;
   }
-  result.not_integrable = all > 0 ? std::sqrt(left_out / all) : 0;
-  inverse_fourier(spectrum, width, height);
+  result.not_integrable = sums.all > 0 ? std::sqrt(sums.left_out / sums.all) : 0;
+}
+
+Integrated integrate_repeated(image::Image slopes, Kernel kernel) {
+  const int width = slopes.width;
+  const int height = slopes.height;
+  // Both slopes as one complex picture, in their place.
+  std::vector<float>& pairs = slopes.texels.floats();
+  fourier(pairs, width, height);
+  Integrated result;
+  const double texels = static_cast<double>(width) * height;
+  result.tilt = {pairs[0] / texels, pairs[1] / texels};
+  divide_by_slopes(pairs, width, height, kernel, result);
+  inverse_fourier(pairs, width, height);
   result.heights = image::make_image(width, height, 1, image::Depth::float32);
-  std::transform(spectrum.begin(), spectrum.end(), result.heights.texels.floats().begin(),
-                 [](const Complex& h) { return static_cast<float>(h.real()); });
+  std::vector<float>& heights = result.heights.texels.floats();
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = pairs[2 * i];
   return result;
 }
 
@@ -136,7 +153,9 @@ Integrated integrate_clamped(image::Image slopes) {
                        [&](std::size_t y) { body(static_cast<int>(y)); });
   };
   // Steps into each texel less those out of it: minus the discrete Laplacian of the heights.
-  std::vector<double> values(at(0, height));
+  Integrated result;
+  result.heights = image::make_image(width, height, 1, image::Depth::float32);
+  std::vector<float>& values = result.heights.texels.floats();
   for_rows([&](int y) {
     for (int x = 0; x < width; ++x) {
       double sum = 0;
@@ -144,21 +163,22 @@ Integrated integrate_clamped(image::Image slopes) {
       if (x + 1 < width) sum -= step_s(x, y);
       if (y > 0) sum += step_t(x, y - 1);
       if (y + 1 < height) sum -= step_t(x, y);
-      values[at(x, y)] = sum;
+      values[at(x, y)] = static_cast<float>(sum);
     }
   });
   cosine(values, width, height);
   const auto eigenvalues = [](int n) {
-    std::vector<double> result;
-    for (int k = 0; k < n; ++k) result.push_back(2 - 2 * std::cos(std::numbers::pi * k / n));
-    return result;
+    std::vector<double> of_axis;
+    for (int k = 0; k < n; ++k) of_axis.push_back(2 - 2 * std::cos(std::numbers::pi * k / n));
+    return of_axis;
   };
   const std::vector<double> of_s = eigenvalues(width);
   const std::vector<double> of_t = eigenvalues(height);
   for_rows([&](int l) {
     for (int k = 0; k < width; ++k)
       if (k != 0 || l != 0)
-        values[at(k, l)] /= of_s[static_cast<std::size_t>(k)] + of_t[static_cast<std::size_t>(l)];
+        values[at(k, l)] = static_cast<float>(
+            values[at(k, l)] / (of_s[static_cast<std::size_t>(k)] + of_t[static_cast<std::size_t>(l)]));
   });
   values[0] = 0;
   inverse_cosine(values, width, height);
@@ -172,8 +192,8 @@ Integrated integrate_clamped(image::Image slopes) {
     };
     auto& [s, t] = rows[static_cast<std::size_t>(y)];
     for (int x = 0; x < width; ++x) {
-      if (x + 1 < width) add(s, step_s(x, y), values[at(x + 1, y)] - values[at(x, y)]);
-      if (y + 1 < height) add(t, step_t(x, y), values[at(x, y + 1)] - values[at(x, y)]);
+      if (x + 1 < width) add(s, step_s(x, y), double{values[at(x + 1, y)]} - values[at(x, y)]);
+      if (y + 1 < height) add(t, step_t(x, y), double{values[at(x, y + 1)]} - values[at(x, y)]);
     }
   });
   std::array<Sums, 2> sums{};
@@ -183,7 +203,6 @@ Integrated integrate_clamped(image::Image slopes) {
       sums[axis].squares += row[axis].squares;
       sums[axis].left_out += row[axis].left_out;
     }
-  Integrated result;
   const double steps_s = std::max(1.0, (width - 1.0) * height);
   const double steps_t = std::max(1.0, width * (height - 1.0));
   result.tilt = {sums[0].slopes / steps_s, sums[1].slopes / steps_t};
@@ -193,9 +212,6 @@ Integrated integrate_clamped(image::Image slopes) {
   // A plane has nothing but its mean slope, up to rounding.
   const bool varies = all > 1e-12 * (sums[0].squares + sums[1].squares);
   result.not_integrable = varies ? std::sqrt(left_out / all) : 0;
-  result.heights = image::make_image(width, height, 1, image::Depth::float32);
-  std::transform(values.begin(), values.end(), result.heights.texels.floats().begin(),
-                 [](double h) { return static_cast<float>(h); });
   return result;
 }
 

@@ -29,7 +29,7 @@ struct Integrated {
 /// source  Frankot and Chellappa 1988, "A method for enforcing integrability in shape from shading", with the
 ///         kernel's own response in place of the true derivative's; Simchony, Chellappa and Shao 1990,
 ///         "Direct analytical methods for solving Poisson equations in computer vision problems"
-/// memory  24 bytes a texel while it works, slopes that are moved here among them
+/// memory  12 bytes a texel while it works, slopes that are moved here among them
 [[nodiscard]] Integrated integrate(image::Image slopes, Kernel kernel, Border border);
 
 } // namespace surfgrad::maps

@@ -4,6 +4,7 @@
 #include "maps/plan.hpp"
 
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <numbers>
 
@@ -19,21 +20,23 @@ struct Line {
   std::vector<Complex> spectrum;
 };
 
-/// Transforms all lines of an axis, of a picture of values of type T. transform(block, lines in it, plan,
-/// room) works on a block.
-template <class T, class Transform>
-void transform_lines(std::vector<T>& values, int width, int height, Axis axis, bool inverse,
-                     const Transform& transform) {
-  const Lines lines = lines_of(width, height, axis);
-  const Plan shared(lines.length, inverse);
-  for_blocks_of_lines(lines, [&](std::size_t first, std::size_t count) {
-    Plan plan = shared; // has room of its own
-    LineBlock<T> block(lines.length);
-    Line line(lines.length);
-    load(lines, values.data(), first, count, block);
-    transform(block, count, plan, line);
-    store(lines, block, first, count, values.data());
-  });
+/// Blocks of lines of complex numbers, each two floats.
+void load_pairs(const Lines& lines, const float* values, std::size_t first, std::size_t count,
+                LineBlock<Complex>& block) {
+  for (std::size_t k = 0; k < lines.length; ++k)
+    for (std::size_t l = 0; l < count; ++l) {
+      const float* const pair = values + (first + l) * lines.across + k * lines.along;
+      block[k][l] = {pair[0], pair[1]};
+    }
+}
+void store_pairs(const Lines& lines, const LineBlock<Complex>& block, std::size_t first, std::size_t count,
+                 float* values) {
+  for (std::size_t k = 0; k < lines.length; ++k)
+    for (std::size_t l = 0; l < count; ++l) {
+      float* const pair = values + (first + l) * lines.across + k * lines.along;
+      pair[0] = static_cast<float>(block[k][l].real());
+      pair[1] = static_cast<float>(block[k][l].imag());
+    }
 }
 
 void fourier_of_block(LineBlock<Complex>& block, std::size_t count, Plan& plan, Line& line, double scale) {
@@ -44,13 +47,19 @@ void fourier_of_block(LineBlock<Complex>& block, std::size_t count, Plan& plan, 
   }
 }
 
-void fourier_both(std::vector<Complex>& values, int width, int height, bool inverse) {
+void fourier_both(std::vector<float>& pairs, int width, int height, bool inverse) {
   for (const Axis axis : {Axis::s, Axis::t}) {
     const double scale = inverse ? 1.0 / (axis == Axis::s ? width : height) : 1;
-    transform_lines(values, width, height, axis, inverse,
-                    [&](LineBlock<Complex>& block, std::size_t count, Plan& plan, Line& line) {
-                      fourier_of_block(block, count, plan, line, scale);
-                    });
+    const Lines lines = lines_of(width, height, axis, 2);
+    const Plan shared(lines.length, inverse);
+    for_blocks_of_lines(lines, [&](std::size_t first, std::size_t count) {
+      Plan plan = shared; // has room of its own
+      LineBlock<Complex> block(lines.length);
+      Line line(lines.length);
+      load_pairs(lines, pairs.data(), first, count, block);
+      fourier_of_block(block, count, plan, line, scale);
+      store_pairs(lines, block, first, count, pairs.data());
+    });
   }
 }
 
@@ -102,34 +111,38 @@ void inverse_cosine_of_block(LineBlock<double>& block, Plan& plan, Line& line,
   }
 }
 
+/// transform(block, plan, room, turns) works on a block of lines.
 template <class Transform>
-void cosine_both(std::vector<double>& values, int width, int height, bool inverse,
+void cosine_both(std::vector<float>& values, int width, int height, bool inverse,
                  const Transform& transform) {
   for (const Axis axis : {Axis::s, Axis::t}) {
-    const std::vector<Complex> turns =
-        quarter_turns(static_cast<std::size_t>(axis == Axis::s ? width : height));
-    transform_lines(values, width, height, axis, inverse,
-                    [&](LineBlock<double>& block, std::size_t, Plan& plan, Line& line) {
-                      transform(block, plan, line, turns);
-                    });
+    const Lines lines = lines_of(width, height, axis);
+    const std::vector<Complex> turns = quarter_turns(lines.length);
+    const Plan shared(lines.length, inverse);
+    for_blocks_of_lines(lines, [&](std::size_t first, std::size_t count) {
+      Plan plan = shared; // has room of its own
+      LineBlock<double> block(lines.length);
+      Line line(lines.length);
+      load(lines, values.data(), first, count, block);
+      transform(block, plan, line, turns);
+      store(lines, block, first, count, values.data());
+    });
   }
 }
 
 } // namespace
 
-void fourier(std::vector<Complex>& values, int width, int height) {
-  fourier_both(values, width, height, false);
+void fourier(std::vector<float>& pairs, int width, int height) { fourier_both(pairs, width, height, false); }
+
+void inverse_fourier(std::vector<float>& pairs, int width, int height) {
+  fourier_both(pairs, width, height, true);
 }
 
-void inverse_fourier(std::vector<Complex>& values, int width, int height) {
-  fourier_both(values, width, height, true);
-}
-
-void cosine(std::vector<double>& values, int width, int height) {
+void cosine(std::vector<float>& values, int width, int height) {
   cosine_both(values, width, height, false, cosine_of_block);
 }
 
-void inverse_cosine(std::vector<double>& values, int width, int height) {
+void inverse_cosine(std::vector<float>& values, int width, int height) {
   cosine_both(values, width, height, true, inverse_cosine_of_block);
 }
 

@@ -41,7 +41,7 @@ image::Image slopes_of(const image::Image& heights, double scale) {
 
 /// As a file of 16 bits holds them.
 image::Image through_file(const image::Image& slopes) {
-  image::Image map = write_slopes(slopes, {}, image::Depth::unorm16).map;
+  image::Image map = write_slopes(slopes, {}, {}).map;
   for (float& v : map.texels.floats()) v = surfgrad::test::stored(v, image::Depth::unorm16);
   return read_slopes(map, {}, "map.png").map;
 }

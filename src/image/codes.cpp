@@ -1,9 +1,9 @@
-#include "io/encoders.hpp"
+#include "image/codes.hpp"
 
 #include <cstddef>
 #include <limits>
 
-namespace surfgrad::io::codec {
+namespace surfgrad::image {
 namespace {
 
 // Compiled with -fno-trapping-math: gcc makes vector code of these selects only where it need not mind
@@ -23,4 +23,4 @@ void nearest_codes(std::span<const float> values, Code* codes) {
 void to_codes(std::span<const float> values, std::uint8_t* codes) { nearest_codes(values, codes); }
 void to_codes(std::span<const float> values, std::uint16_t* codes) { nearest_codes(values, codes); }
 
-} // namespace surfgrad::io::codec
+} // namespace surfgrad::image
