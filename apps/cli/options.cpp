@@ -109,7 +109,7 @@ void check_memory(const Size& size, std::uint64_t bytes_a_pixel) {
   if (pixels * bytes_a_pixel <= most) return;
   const double scale = std::sqrt(static_cast<double>(most / bytes_a_pixel) / static_cast<double>(pixels));
   throw MachineError(fmt::format(
-      "--size {}x{}: what must be held takes {} of memory, but there are {}; try {}x{}", size.width,
+      "--size {}x{}: the picture alone takes {} of memory, but there are {}; try {}x{}", size.width,
       size.height, gibibytes(pixels * bytes_a_pixel), gibibytes(most),
       std::max(1, static_cast<int>(scale * size.width)), std::max(1, static_cast<int>(scale * size.height))));
 }
