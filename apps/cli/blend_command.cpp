@@ -10,6 +10,7 @@
 #include "maps/convert.hpp"
 #include "options.hpp"
 #include "output_names.hpp"
+#include "output_set.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -122,12 +123,11 @@ void check_sizes(const BlendCommand& command, const std::vector<maps::Detail>& d
 
 /// One base. Returns its summary for machines.
 nlohmann::json blend_file(const BlendCommand& command, const std::vector<maps::Detail>& details,
-                          const fs::path& input) {
+                          const fs::path& input, Console& console) {
   const fs::path output = command.names.file_for(command.output, input);
   const image::Depth depth = depth_for(output, command.depth, image::Depth::unorm16);
   check_output(output, depth);
   for (const auto& files : {command.maps, command.details, command.masks}) refuse_to_replace(files, output);
-  Console console("blending", command.quiet);
   image::Image base = read_normals(input.string(), command.base);
   check_sizes(command, details, base, input);
   image::Image sum = maps::blended(std::move(base), details, command.method);
@@ -170,11 +170,15 @@ void run(BlendCommand& command) {
   }
   command.maps = image_files(command.maps);
   command.names.check("--output", command.output, command.maps);
+  OutputSet outputs;
+  for (const std::string& map : command.maps)
+    outputs.claim("--output", command.names.file_for(command.output, map), map);
   command.names.make_folder();
   on_threads(command.threads, [&] {
     const std::vector<maps::Detail> details = read_details(command);
-    for_each_map(command.maps, command.json,
-                 [&](const auto& map) { return blend_file(command, details, map); });
+    for_each_map(
+        command.maps, {"blending", command.quiet, command.json},
+        [&](const auto& map, Console& console) { return blend_file(command, details, map, console); });
   });
 }
 
@@ -248,12 +252,7 @@ void add_blend_command(CLI::App& program) {
   verb.add_flag("--derivative", command->is_derivative, "write slopes in place of normals");
   add_derivative_options(verb, "--", command->to);
   add_depth_option(verb, command->depth, "16");
-  const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
-  verb.add_option("--dither", command->dither,
-                  "on (default) or off: with --depth 8, noise in place of terraces")
-      ->transform(one_of(switches))
-      ->type_name("NAME")
-      ->option_text("NAME");
+  add_dither_option(verb, command->dither, "with --depth 8");
   add_compress_option(verb, command->compression);
   add_job_options(verb, command->threads, command->quiet, command->json);
   verb.callback([command] { run(*command); });

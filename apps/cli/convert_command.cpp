@@ -12,6 +12,7 @@
 #include "maps/recode.hpp"
 #include "options.hpp"
 #include "output_names.hpp"
+#include "output_set.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -166,7 +167,7 @@ void write(const fs::path& file, const image::Image& map, image::Depth depth, io
 /// A conversion that changes only codes, written while it is done. Returns its summary for machines.
 nlohmann::json recode_file(const ConvertCommand& command, const image::Image& map,
                            const maps::Recoding& recoding, image::Depth depth, const fs::path& input,
-                           const fs::path& output) {
+                           const fs::path& output, Console& console) {
   OutputFile file(output, {map.width, map.height, recoding.channels(), recoding.has_alpha()}, depth,
                   command.compression);
   constexpr int band_rows = 64; // some megabytes
@@ -175,9 +176,7 @@ nlohmann::json recode_file(const ConvertCommand& command, const image::Image& ma
     file.write(recoding.rows(top - rows, rows));
   }
   file.commit();
-  if (!command.json)
-    Console("converting", command.quiet)
-        .say(fmt::format("wrote {} ({}x{})", output.string(), map.width, map.height));
+  if (!command.json) console.say(fmt::format("wrote {} ({}x{})", output.string(), map.width, map.height));
   return {{"input", input.string()},
           {"output", output.string()},
           {"width", map.width},
@@ -186,7 +185,7 @@ nlohmann::json recode_file(const ConvertCommand& command, const image::Image& ma
 }
 
 /// One map. Returns its summary for machines.
-nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input) {
+nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input, Console& console) {
   const fs::path output = command.names.file_for(command.output, input);
   const fs::path roughness = command.names.file_for(command.roughness, input);
   check_output(output, depth_for(output, command.depth, image::Depth::unorm16));
@@ -195,14 +194,13 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
     check_output(roughness, depth_for(roughness, "", image::Depth::unorm8));
     refuse_to_replace(command.maps, roughness);
   }
-  Console console("converting", command.quiet);
   image::Image map = io::read_image(input);
   stop_if_interrupted();
   const maps::Conversion c = conversion_for(command, map, output);
   maps::Converted made;
   if (command.mesh.empty()) {
     if (const auto recoding = maps::Recoding::of(map, c, input))
-      return recode_file(command, map, *recoding, c.depth, input, output);
+      return recode_file(command, map, *recoding, c.depth, input, output, console);
     made = maps::convert(std::move(map), c, input);
   } else {
     const maps::OverMesh job{.model = command.mesh,
@@ -224,6 +222,19 @@ nlohmann::json convert_file(const ConvertCommand& command, const fs::path& input
   return summary_of(made, input, output);
 }
 
+/// No two files of a run are the same one.
+void claim_outputs(const ConvertCommand& command) {
+  constexpr int most_levels = 17; // of the largest picture that can be read
+  OutputSet outputs;
+  for (const std::string& map : command.maps)
+    for (int level = 0; level < (command.conversion.mips ? most_levels : 1); ++level) {
+      outputs.claim("--output", file_of_level(command.names.file_for(command.output, map), level), map);
+      if (!command.roughness.empty())
+        outputs.claim("--roughness", file_of_level(command.names.file_for(command.roughness, map), level),
+                      map);
+    }
+}
+
 void run(ConvertCommand& command) {
   command.conversion.from = form_of(command.from, command.conversion.from);
   command.conversion.to = form_of(command.to, command.conversion.to);
@@ -237,9 +248,11 @@ void run(ConvertCommand& command) {
   command.maps = image_files(command.maps);
   command.names.check("--output", command.output, command.maps);
   command.names.check("--roughness", command.roughness, command.maps);
+  claim_outputs(command);
   command.names.make_folder();
   on_threads(command.threads, [&] {
-    for_each_map(command.maps, command.json, [&](const auto& map) { return convert_file(command, map); });
+    for_each_map(command.maps, {"converting", command.quiet, command.json},
+                 [&](const auto& map, Console& console) { return convert_file(command, map, console); });
   });
 }
 

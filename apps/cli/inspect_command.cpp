@@ -9,6 +9,7 @@
 #include "maps/preview.hpp"
 #include "options.hpp"
 #include "output_names.hpp"
+#include "output_set.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -174,8 +175,8 @@ image::Depth depth_like(const image::Image& map, const fs::path& output, const s
 }
 
 /// One map. Returns its summary for machines.
-nlohmann::json inspect_file(const InspectCommand& command, const image::Image* heights,
-                            const fs::path& input) {
+nlohmann::json inspect_file(const InspectCommand& command, const image::Image* heights, const fs::path& input,
+                            Console& console) {
   const fs::path preview = command.names.file_for(command.preview, input);
   const fs::path output = command.names.file_for(command.output, input);
   for (const fs::path& file : {preview, output})
@@ -185,7 +186,6 @@ nlohmann::json inspect_file(const InspectCommand& command, const image::Image* h
   stop_if_interrupted();
   const image::Depth depth = depth_like(map, output, command.depth);
   if (command.fix) check_output(output, depth);
-  Console console("inspecting", command.quiet);
   const maps::Inspection found = maps::inspect(map, heights, input);
   nlohmann::json summary = summary_of(found, map, input);
   std::vector<std::pair<std::string, std::string>> lines = lines_of(found, map);
@@ -222,6 +222,11 @@ void run(InspectCommand& command) {
   }
   command.names.check("--output", command.output, command.maps);
   command.names.check("--preview", command.preview, command.maps);
+  OutputSet outputs;
+  for (const std::string& map : command.maps)
+    for (const auto& [option, pattern] :
+         {std::pair{"--output", command.output}, {"--preview", command.preview}})
+      if (!pattern.empty()) outputs.claim(option, command.names.file_for(pattern, map), map);
   command.names.make_folder();
   on_threads(command.threads, [&] {
     std::optional<image::Image> heights;
@@ -229,8 +234,10 @@ void run(InspectCommand& command) {
       heights =
           maps::read_heights(io::read_image(command.heights),
                              {.kind = maps::Kind::height, .is_depth = command.is_depth}, command.heights);
-    for_each_map(command.maps, command.json,
-                 [&](const auto& map) { return inspect_file(command, heights ? &*heights : nullptr, map); });
+    for_each_map(command.maps, {"inspecting", command.quiet, command.json},
+                 [&](const auto& map, Console& console) {
+                   return inspect_file(command, heights ? &*heights : nullptr, map, console);
+                 });
   });
 }
 

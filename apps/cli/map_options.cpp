@@ -82,15 +82,30 @@ void refuse_to_replace(const std::vector<std::string>& maps, const std::filesyst
   }
 }
 
-void for_each_map(const std::vector<std::string>& maps, bool json,
-                  const std::function<nlohmann::json(const std::string& map)>& job) {
+void add_dither_option(CLI::App& verb, std::optional<bool>& dither, const std::string& when) {
+  const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
+  verb.add_option("--dither", dither,
+                  "on (default, " + when + ") or off: noise in place of terraces; flat texels stay flat")
+      ->transform(one_of(switches))
+      ->type_name("NAME")
+      ->option_text("NAME");
+}
+
+void for_each_map(const std::vector<std::string>& maps, const Telling& telling,
+                  const std::function<nlohmann::json(const std::string& map, Console& console)>& job) {
   Batch batch("maps", maps.size());
   nlohmann::json summaries = nlohmann::json::array();
-  for (const std::string& map : maps) {
-    const auto failure = batch.run(map, [&] { summaries.push_back(job(map)); });
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const std::string& map = maps[i];
+    const auto failure = batch.run(map, [&] {
+      Console console(fmt::format("{} {} of {}", telling.doing, i + 1, maps.size()), telling.quiet);
+      if (maps.size() > 1)
+        console.report().progress(static_cast<double>(i) / static_cast<double>(maps.size()));
+      summaries.push_back(job(map, console));
+    });
     if (failure) summaries.push_back({{"input", map}, {"error", failure->what}});
   }
-  if (json) {
+  if (telling.json) {
     Console console("", true);
     if (maps.size() > 1)
       console.say_json({{"maps", summaries}});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bake/roughness.hpp"
+#include "console.hpp"
 #include "maps/form.hpp"
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,20 @@ void add_derivative_options(CLI::App& verb, const std::string& prefix, maps::For
 /// Refuses to write over one of the maps that are read.
 void refuse_to_replace(const std::vector<std::string>& maps, const std::filesystem::path& output);
 
-/// Runs the job of each map, which returns its summary for machines. What fails is told at the end; with
-/// `json` so is one line, of an object for one map and of a list `maps` for several.
-void for_each_map(const std::vector<std::string>& maps, bool json,
-                  const std::function<nlohmann::json(const std::string& map)>& job);
+/// --dither; `when` says when it is on unless told.
+void add_dither_option(CLI::App& verb, std::optional<bool>& dither, const std::string& when);
+
+/// What is said of a job for each of several maps.
+struct Telling {
+  std::string doing; ///< "converting"
+  bool quiet = false;
+  bool json = false;
+};
+
+/// Runs the job of each map, which returns its summary for machines, with a bar of how many are done. What
+/// fails is told at the end; for machines so is one line, of an object for one map and of a list `maps` for
+/// several.
+void for_each_map(const std::vector<std::string>& maps, const Telling& telling,
+                  const std::function<nlohmann::json(const std::string& map, Console& console)>& job);
 
 } // namespace surfgrad::cli

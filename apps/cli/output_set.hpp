@@ -14,8 +14,8 @@ class OutputSet {
   /// the same file, however it is spelled.
   void claim(const std::string& option, const std::filesystem::path& file, const std::string& input);
 
-  /// Throws InputError if a file that an input is made of is one of them; whoever was to write it is kept from
-  /// that, see check_outputs.
+  /// Throws InputError if a file that an input is made of is one of them; whoever was to write it is kept
+  /// from that, see check_outputs.
   void check_input(const std::filesystem::path& file, const std::string& input);
 
   /// Throws InputError if an output of this input turned out to be read for another one.

@@ -161,6 +161,7 @@ TEST(ConvertCommand, RefusesWhatItCannotDoBeforeItWrites) {
       {{"n.png", "-o", "o.png", "--range", "-1"}, 2, "slope above 0"},
       {{"n.png", "-o", "o.png", "--resize", "0"}, 2, "0"},
       {{"n.png"}, 2, "--output or --out-dir"},
+      {{"n.png", "-o", "o.png", "--mips", "--roughness", "o_mip1.png"}, 2, "is already written by"},
   };
   for (const Case& wrong : cases) {
     std::vector<std::string> arguments = wrong.arguments;
