@@ -202,7 +202,6 @@ Slopes read_slopes(const image::Image& map, const Form& form, const std::filesys
   const bool integers = image::is_integer(map.depth);
   const double most = map.depth == image::Depth::unorm8 ? 255 : 65535;
   Slopes slopes;
-  slopes.is_two_channels = layout.count == 2;
   const auto components = static_cast<std::size_t>(layout.count);
   MapRows rows(map.width, map.height, 2, image::Depth::float32);
   slopes.inward = each_texel(map, rows, [&](const float* from, float* to) {

@@ -44,9 +44,8 @@ struct Form {
 
 /// Slopes of a map, and what was odd about it.
 struct Slopes {
-  image::Image map{};           ///< (dh/ds, dh/dt), two channels of floats
-  std::int64_t inward = 0;      ///< texels of normals with z <= 0, which no surface has
-  bool is_two_channels = false; ///< z is reconstructed
+  image::Image map{};      ///< (dh/ds, dh/dt), two channels of floats
+  std::int64_t inward = 0; ///< texels of normals with z <= 0, which no surface has
 };
 
 /// Slopes of a map of normals or derivatives. `file` names it in errors.
