@@ -1,7 +1,7 @@
 #include "lost_detail_output.hpp"
 
+#include "bake/normal_statistics.hpp"
 #include "bake/roughness.hpp"
-#include "bake/slope_statistics.hpp"
 #include "console.hpp"
 #include "interrupt.hpp"
 #include "map_options.hpp"
@@ -42,7 +42,7 @@ void LostDetailOutput::add_options(CLI::App& verb) {
   verb.add_flag(
       "--mips", is_mips_wanted_,
       "also write the mip levels of the map and of the roughness: NAME_mip1.png and so on, of mean\n"
-      "slopes, with the detail that each level loses in its roughness");
+      "normals, with the detail that each level loses in its roughness");
 }
 
 void LostDetailOutput::check(const OutputNames& names, const std::vector<std::string>& scenes) const {
@@ -67,7 +67,7 @@ void LostDetailOutput::check(const bake::Options& job, const fs::path& map) cons
   claim(map, std::max(job.width, job.height), [&](const std::string& option, const fs::path& file) {
     check_output(file, option == "--mips" ? job.depth : depth_of(file));
   });
-  check_memory({job.width, job.height}, 72); // sums, their levels and a picture
+  check_memory({job.width, job.height}, 82); // sums, their levels and a picture
 }
 
 void LostDetailOutput::read_base() {
@@ -88,25 +88,25 @@ void LostDetailOutput::write(const scene::Scene& scene, const bake::Options& job
                              io::Compression compression, bool quiet) {
   if (!is_wanted()) return;
   Console console("measuring detail", quiet);
-  const bake::SlopeStatistics slopes = bake::slope_statistics(scene, job, {console.report().progress, {}});
+  const bake::NormalStatistics normals = bake::normal_statistics(scene, job, {console.report().progress, {}});
   const auto write = [&](const fs::path& file, const image::Image& picture, image::Depth depth) {
     const Unbroken whole_file;
     stop_if_interrupted();
     io::write_image(file, picture, depth, compression);
     files_.push_back(file);
   };
-  const int levels = is_mips_wanted_ ? slopes.level_count() : 1;
+  const int levels = is_mips_wanted_ ? normals.level_count() : 1;
   for (int level = 0; level < levels; ++level) {
-    if (level > 0) write(file_of_level(map, level), bake::normal_level(slopes, level, job), job.depth);
+    if (level > 0) write(file_of_level(map, level), bake::normal_level(normals, level, job), job.depth);
     if (roughness_.empty()) continue;
-    image::Image roughness = bake::roughness_map(slopes, level, *base_read_, job, !anisotropy_.empty());
+    image::Image roughness = bake::roughness_map(normals, level, *base_read_, job, !anisotropy_.empty());
     write(file_of_level(roughness_, level), roughness, depth_of(roughness_));
     // A model takes it without direction.
     if (level == 0)
       written_ = anisotropy_.empty() ? std::move(roughness)
-                                     : bake::roughness_map(slopes, level, *base_read_, job, false);
+                                     : bake::roughness_map(normals, level, *base_read_, job, false);
     if (anisotropy_.empty()) continue;
-    write(file_of_level(anisotropy_, level), bake::anisotropy_map(slopes, level, *base_read_, job),
+    write(file_of_level(anisotropy_, level), bake::anisotropy_map(normals, level, *base_read_, job),
           depth_of(anisotropy_));
   }
 }

@@ -4,9 +4,9 @@
 #include "bake/encode.hpp"
 #include "bake/fill.hpp"
 #include "bake/format.hpp"
+#include "bake/normal_statistics.hpp"
 #include "bake/padding.hpp"
 #include "bake/sample_means.hpp"
-#include "bake/slope_statistics.hpp"
 #include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
 #include "simd/lane.hpp"
@@ -88,11 +88,10 @@ void require_something_inside(const std::vector<raster::Surface>& surfaces, std:
 /// Bakes rows of tiles.
 class Bands {
  public:
-  /// format  of the texels; null: a band holds the sums of slope_statistics, three channels of six beside
-  /// each other
+  /// format  of the texels; null: a band holds what SampleSums puts
   Bands(const stage::Stage& stage, const Options& options, const Format* format)
       : scene_(stage.scene()), options_(options), format_(format),
-        empty_(format != nullptr ? format->flat() : std::vector<float>(6)),
+        empty_(format != nullptr ? format->flat() : std::vector<float>(SampleSums::channels)),
         slot_(stage.slot_of(options.uv_set)),
         tile_side_(options.samples * std::max(1, stage::tile_side_of(options.backend) / options.samples)),
         projection_(raster::Projection::texture(slot_, options.width * options.samples,
@@ -132,6 +131,7 @@ class Bands {
     explicit Own(std::size_t side) : length(side * side + most_lanes), values(5 * length) {}
     Counts counts{};
     SampleMeans means{};
+    SampleSums sums{};
     std::vector<std::size_t> texel_of{}; ///< where the texels of tiles of this size lie, from the first on
     int tile_width = 0;
     int tile_height = 0;
@@ -174,15 +174,13 @@ class Bands {
     const auto normal = [&](int i) {
       return vec3<float>{work.normal.x[i], work.normal.y[i], work.normal.z[i]};
     };
-    const auto average = [&] {
-      own.means.start(options_.space, options_.samples, width, height);
-      for (int i = 0; i < composed.count; ++i)
-        own.means.add(composed.pixel[i], normal(i), work.singular[i] != 0);
-    };
+    const SampleGrid grid{options_.samples, width, height};
     if (format_ == nullptr) {
-      average();
+      own.sums.start(grid);
+      for (int i = 0; i < composed.count; ++i)
+        if (work.singular[i] == 0) own.sums.add(composed.pixel[i], normal(i));
       for (std::size_t texel = 0; texel < own.texel_of.size(); ++texel)
-        put_sums(own.means.sum(texel), own.means.squares(texel), first + own.texel_of[texel]);
+        own.sums.put(texel, first + own.texel_of[texel]);
       return;
     }
     if (composed.count < tile.width * tile.height)
@@ -196,14 +194,11 @@ class Bands {
       for (int i = 0; i < composed.count; ++i) put(static_cast<std::size_t>(composed.pixel[i]), normal(i));
       return;
     }
-    average();
+    own.means.start(options_.space, grid);
+    for (int i = 0; i < composed.count; ++i)
+      own.means.add(composed.pixel[i], normal(i), work.singular[i] != 0);
     for (std::size_t texel = 0; texel < own.texel_of.size(); ++texel)
       if (own.means.covered(texel)) put(texel, own.means.mean(texel));
-  }
-
-  static void put_sums(vec3<double> sum, vec3<double> squares, float* texel) {
-    for (const double value : {sum.x, sum.y, sum.z, squares.x, squares.y, squares.z})
-      *texel++ = static_cast<float>(value);
   }
 
   static void count_samples(const stage::ComposedTile& composed, const EncodeWork& work, Counts& counts) {
@@ -252,14 +247,14 @@ stage::Stage stage_of(scene::Scene scene, const Options& options, const Report& 
 
 } // namespace
 
-SlopeStatistics slope_statistics(scene::Scene scene, const Options& asked, const Report& report) {
+NormalStatistics normal_statistics(scene::Scene scene, const Options& asked, const Report& report) {
   Options options = asked;
   options.space = Space::tangent;
   const stage::Stage stage = stage_of(std::move(scene), options, report);
   require_something_inside(stage.surfaces(), stage.slot_of(options.uv_set), options, stage.scene().source);
   Bands bands(stage, options, nullptr);
-  image::Image means = image::make_image(options.width, options.height, 3, image::Depth::float32);
-  image::Image squares = means;
+  image::Image sums = image::make_image(options.width, options.height, 3, image::Depth::float32);
+  image::Image squares = image::make_image(options.width, options.height, 4, image::Depth::float32);
   int rows_left = options.height;
   stage::for_each_band(
       bands.count(), report,
@@ -268,12 +263,10 @@ SlopeStatistics slope_statistics(scene::Scene scene, const Options& asked, const
         rows_left -= band.height;
         for (int y = 0; y < band.height; ++y)
           for (int x = 0; x < band.width; ++x)
-            for (int c = 0; c < 3; ++c) {
-              means.at(x, rows_left + y, c) = band.at(x, y, c);
-              squares.at(x, rows_left + y, c) = band.at(x, y, c + 3);
-            }
+            for (int c = 0; c < SampleSums::channels; ++c)
+              (c < 3 ? sums.at(x, rows_left + y, c) : squares.at(x, rows_left + y, c - 3)) = band.at(x, y, c);
       });
-  return SlopeStatistics(means, squares);
+  return {sums, squares};
 }
 
 Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,

@@ -35,7 +35,7 @@ enum class TexelFormat {
 /// at the same distances everywhere, over the border of a map that repeats too; for other wraps the copies
 /// have no weight.
 struct Map {
-  int components = 0; ///< 1 scalar, 2 slope, 3 direction
+  int components = 0; ///< 1 scalar, 2 slope, 3 direction, at most 4
   TexelFormat format = TexelFormat::floats;
   double scale = 1;     ///< value of the code 1; of slopes a power of two
   bool encoded = false; ///< texels are normals, to become slopes after they are filtered

@@ -150,7 +150,7 @@ Level empty_level(const Map& map, int index) {
 /// Stores a level and those above it, `count` in all, which have even sides, and returns the one after them.
 /// All of them are made of a band while it lies in the cache, and none of them is kept as floats.
 Level store_and_halve_evenly(const Level& level, int index, int count, Map& map) {
-  constexpr std::array halve_row{halve_even_row<1>, halve_even_row<2>, halve_even_row<3>};
+  constexpr std::array halve_row{halve_even_row<1>, halve_even_row<2>, halve_even_row<3>, halve_even_row<4>};
   const auto halve = halve_row[static_cast<std::size_t>(map.components - 1)];
   Level last = empty_level(map, index + count);
   const std::size_t rows_a_row = std::size_t{1} << count; // of `level`, to one of the last

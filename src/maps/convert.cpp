@@ -1,11 +1,9 @@
 #include "maps/convert.hpp"
 
-#include "image/parallel.hpp"
 #include "maps/integrate.hpp"
+#include "maps/lost_detail.hpp"
 #include "maps/recode.hpp"
 #include "maps/resample.hpp"
-
-#include <surfgrad/moments.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,38 +36,6 @@ vec2<double> remove_mean(image::Image& slopes) {
     values[i + 1] = static_cast<float>(values[i + 1] - mean.y);
   }
   return mean;
-}
-
-/// Slopes, their squares and their product: what averages to moments.
-image::Image squares_of(const image::Image& slopes) {
-  image::Image result = image::make_image(slopes.width, slopes.height, 5, image::Depth::float32);
-  std::vector<float>& to = result.texels.floats();
-  for (std::size_t i = 0, k = 0; i < slopes.texels.size(); i += 2, k += 5) {
-    const float s = slopes.texels[i];
-    const float t = slopes.texels[i + 1];
-    to[k] = s;
-    to[k + 1] = t;
-    to[k + 2] = s * s;
-    to[k + 3] = t * t;
-    to[k + 4] = s * t;
-  }
-  return result;
-}
-
-image::Image roughness_of(const image::Image& moments, const bake::BaseRoughness& base) {
-  image::Image result = image::make_image(moments.width, moments.height, 1, image::Depth::float32);
-  image::in_parallel(static_cast<std::size_t>(moments.height), static_cast<std::size_t>(moments.width),
-                     [&, to = result.texels.floats().data()](std::size_t row) {
-                       const int y = static_cast<int>(row);
-                       for (int x = 0; x < moments.width; ++x) {
-                         const auto m = [&](int c) { return double{moments.at(x, y, c)}; };
-                         const SlopeMoments<double> slopes{{m(0), m(1)}, {m(2), m(3)}, m(4)};
-                         const double alpha = base.alpha(x, y, moments.width, moments.height);
-                         to[result.index(x, y)] =
-                             static_cast<float>(std::sqrt(roughness_from_moments(alpha, slopes)));
-                       }
-                     });
-  return result;
 }
 
 /// Sides of a mip level, or of the map itself.
@@ -139,10 +105,10 @@ class Converter {
       return;
     }
     if (c_.base_roughness) {
-      const image::Image squares = squares_of(slopes);
+      const image::Image normals = unit_normals(slopes);
       for (const Size& size : levels())
         result_.roughness.push_back(
-            roughness_of(resampled(squares, size.width, size.height, c_.border), *c_.base_roughness));
+            roughness_of_means(resampled(normals, size.width, size.height, c_.border), *c_.base_roughness));
     }
     take_levels(std::move(slopes),
                 [&](const image::Image& level) { return write_slopes(level, c_.to, precision()); });

@@ -52,7 +52,7 @@ struct Converted {
 /// arrangement of a normal or height map changes, its texels are kept as they are: a flip of green is its own
 /// inverse, 8-bit codes stay exact in 16 bits.
 ///
-/// source  of the roughness: roughness_from_moments of all slopes in a texel's area
+/// source  of the roughness: bake::widened_alpha of all normals in a texel's area
 /// file    that the map came from, for messages
 /// Same result for any number of threads. Throws InputError as read_slopes and read_heights do.
 [[nodiscard]] Converted convert(const image::Image& map, const Conversion& conversion,

@@ -1,10 +1,10 @@
 #include "maps/inspect.hpp"
 
+#include "maps/lost_detail.hpp"
 #include "maps/resample.hpp"
 #include "stage/bands.hpp"
 
 #include <surfgrad/derivative.hpp>
-#include <surfgrad/moments.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -172,7 +172,6 @@ GreenFinding find_green(image::Image slopes) {
 
 void look_at_slopes(const image::Image& slopes, Inspection& result) {
   const double count = double{1.0 * slopes.width} * slopes.height;
-  image::Image squares = image::make_image(slopes.width, slopes.height, 5, image::Depth::float32);
   double square = 0;
   for (int y = 0; y < slopes.height; ++y)
     for (int x = 0; x < slopes.width; ++x) {
@@ -180,21 +179,18 @@ void look_at_slopes(const image::Image& slopes, Inspection& result) {
       result.tilt = result.tilt + vec2<double>{d.x, d.y};
       result.steepest = std::max(result.steepest, double{max_abs(d)});
       square += double{d.x} * d.x + double{d.y} * d.y;
-      const float moments[] = {d.x, d.y, d.x * d.x, d.y * d.y, d.x * d.y};
-      std::copy(std::begin(moments), std::end(moments), &squares.at(x, y, 0));
     }
   result.tilt = (1 / count) * result.tilt;
   result.root_mean_slope = std::sqrt(square / count);
-  while (squares.width > 1 || squares.height > 1) {
-    squares = resampled(std::move(squares), std::max(1, squares.width / 2), std::max(1, squares.height / 2),
+  image::Image normals = unit_normals(slopes);
+  const bake::BaseRoughness mirror(0);
+  while (normals.width > 1 || normals.height > 1) {
+    normals = resampled(std::move(normals), std::max(1, normals.width / 2), std::max(1, normals.height / 2),
                         Border::repeat);
+    const image::Image roughness = roughness_of_means(normals, mirror);
     double sum = 0;
-    for (int y = 0; y < squares.height; ++y)
-      for (int x = 0; x < squares.width; ++x) {
-        const auto m = [&](int c) { return double{squares.at(x, y, c)}; };
-        sum += std::sqrt(roughness_from_moments(0.0, SlopeMoments<double>{{m(0), m(1)}, {m(2), m(3)}, m(4)}));
-      }
-    result.hidden_roughness.push_back(sum / (double{1.0 * squares.width} * squares.height));
+    for (std::size_t i = 0; i < roughness.texels.size(); ++i) sum += roughness.texels[i];
+    result.hidden_roughness.push_back(sum / static_cast<double>(roughness.texels.size()));
   }
 }
 

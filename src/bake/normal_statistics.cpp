@@ -1,4 +1,4 @@
-#include "bake/slope_statistics.hpp"
+#include "bake/normal_statistics.hpp"
 
 #include "image/pyramid.hpp"
 
@@ -14,20 +14,22 @@ image::Map levels_of(const image::Image& sums) {
     const float* values = sums.texels.read(sums.index(0, y), count, texels);
     if (values != texels) std::copy_n(values, count, texels);
   };
-  return image::with_pyramid(rows, sums.width, sums.height, 3);
+  return image::with_pyramid(rows, sums.width, sums.height, sums.channels);
 }
 
 } // namespace
 
-SlopeStatistics::SlopeStatistics(const image::Image& means, const image::Image& squares)
-    : means_(levels_of(means)), squares_(levels_of(squares)) {}
+NormalStatistics::NormalStatistics(const image::Image& sums, const image::Image& squares)
+    : sums_(levels_of(sums)), squares_(levels_of(squares)) {}
 
-SlopeMoments<double> SlopeStatistics::moments(int level, int x, int y) const {
-  const double share = 1 / means_.value(level, x, y, 2);
+NormalMoments NormalStatistics::moments(int level, int x, int y) const {
+  const double share = 1 / squares_.value(level, x, y, 3);
   const auto mean = [&](const image::Map& map, int component) {
     return share * map.value(level, x, y, component);
   };
-  return {{mean(means_, 0), mean(means_, 1)}, {mean(squares_, 0), mean(squares_, 1)}, mean(squares_, 2)};
+  return {{mean(sums_, 0), mean(sums_, 1), mean(sums_, 2)},
+          {mean(squares_, 0), mean(squares_, 1)},
+          mean(squares_, 2)};
 }
 
 } // namespace surfgrad::bake
