@@ -56,6 +56,14 @@ std::shared_ptr<const image::Map> MapLibrary::made_once(const std::string& kind,
   return map;
 }
 
+image::RowsRead MapLibrary::giving_back(const std::filesystem::path& file) const {
+  image::Image* const image = expendable_ ? expendable_(file) : nullptr;
+  if (image == nullptr) return {};
+  return [image](int first, int end) {
+    image->texels.give_back(image->index(0, first), image->index(0, end) - image->index(0, first));
+  };
+}
+
 std::string MapLibrary::named_by(const stack::FileName& file) const {
   if (file.line == 0) return file.key;
   return "(named by " + document_.filename().string() + ":" + std::to_string(file.line) + ": " + file.key +
@@ -105,8 +113,10 @@ std::shared_ptr<const image::Map> MapLibrary::slopes(const stack::FileName& file
   const std::string kind = (encoded ? "normals " : "slopes ") + number_of(channels) + word_of(green);
   return made_once(kind, file, encoded ? 3 : 2, [&](const image::Image& image) {
     require_channels(image, channels == stack::Channels::xyz ? 3 : 2, file, "a normal map");
-    const auto make = encoded ? image::make_encoded_map : image::make_slope_map;
-    image::SlopeMap map = make(image, channels_of(channels), green == stack::Green::up);
+    const bool green_up = green == stack::Green::up;
+    image::SlopeMap map =
+        encoded ? image::make_encoded_map(image, channels_of(channels), green_up)
+                : image::make_slope_map(image, channels_of(channels), green_up, giving_back(file.path));
     const bool told = std::any_of(inward_.begin(), inward_.end(),
                                   [&](const InwardTexels& known) { return known.file == file.path; });
     if (map.inward_texels > 0 && !told)
@@ -124,7 +134,8 @@ MapLibrary::derivatives(const stack::FileName& file, const stack::DerivativeCode
                      return image::make_derivative_map(image, code.range, green == stack::Green::up,
                                                        code.neutral == stack::NeutralCode::whole
                                                            ? image::NeutralCode::whole
-                                                           : image::NeutralCode::between);
+                                                           : image::NeutralCode::between,
+                                                       giving_back(file.path));
                    });
 }
 

@@ -23,11 +23,16 @@ namespace surfgrad::engine {
 /// Turns images into sampled maps, each combination once, and counts what was odd about them.
 class MapLibrary {
  public:
-  /// find returns the image of a file named in a layer; it stays alive as long as the library.
-  /// document is what messages say named the files; may be empty.
-  explicit MapLibrary(std::function<const image::Image&(const std::filesystem::path&)> find,
-                      std::filesystem::path document = {})
-      : find_(std::move(find)), document_(std::move(document)) {}
+  using Find = std::function<const image::Image&(const std::filesystem::path&)>;
+  using FindExpendable = std::function<image::Image*(const std::filesystem::path&)>;
+
+  /// find        returns the image of a file named in a layer; it stays alive until the map is made
+  /// document    what messages say named the files; may be empty
+  /// expendable  returns it if nobody reads it after the layer that asks, and null else: its texels go as
+  /// they
+  ///             become slopes
+  explicit MapLibrary(Find find, std::filesystem::path document = {}, FindExpendable expendable = {})
+      : find_(std::move(find)), document_(std::move(document)), expendable_(std::move(expendable)) {}
 
   // These throw InputError where the image has too few channels.
 
@@ -73,8 +78,13 @@ class MapLibrary {
   void require_channels(const image::Image& image, int least, const stack::FileName& file,
                         const char* what) const;
 
-  std::function<const image::Image&(const std::filesystem::path&)> find_;
+  /// What gives an image's rows back once they are read, if nobody else reads it. Only for the one map that
+  /// its layer makes of it.
+  [[nodiscard]] image::RowsRead giving_back(const std::filesystem::path& file) const;
+
+  Find find_;
   std::filesystem::path document_;
+  FindExpendable expendable_;
   std::map<std::string, std::shared_ptr<const image::Map>> maps_;
   std::map<std::vector<std::filesystem::path>, std::shared_ptr<const image::CubeMap>> cubes_;
   std::map<std::string, std::shared_ptr<const image::TwoSidedField>> reliefs_;

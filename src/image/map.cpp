@@ -61,7 +61,7 @@ TexelRows rows_of_texels(const Image& image, std::size_t components, const Made&
 
 } // namespace
 
-SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up) {
+SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up, const RowsRead& read) {
   SlopeMap result;
   result.channels = believed(image, channels);
   const SlopeCode code{result.channels == NormalChannels::xy, green_up};
@@ -73,7 +73,7 @@ SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_
     inward[static_cast<std::size_t>(y)] =
         slope_row({texels, image.width, image.channels, code, !is_integer(image.depth), row});
   };
-  result.map = with_pyramid(rows, image.width, image.height, 2, code_for(image, rows));
+  result.map = with_pyramid(rows, image.width, image.height, 2, code_for(image, rows), read);
   result.inward_texels = std::accumulate(inward.begin(), inward.end(), std::int64_t{0});
   return result;
 }
@@ -112,7 +112,8 @@ Map make_slope_moments(const Map& slopes) {
   return with_pyramid(rows, slopes.width(), slopes.height(), 3);
 }
 
-Map make_derivative_map(const Image& image, double range, bool green_up, NeutralCode neutral) {
+Map make_derivative_map(const Image& image, double range, bool green_up, NeutralCode neutral,
+                        const RowsRead& read) {
   const double most = image.depth == Depth::unorm8 ? 255 : 65535;
   const double half = neutral == NeutralCode::between ? most / 2 : (most - 1) / 2; // codes of `range`
   const auto slope = [&](double value) {
@@ -127,7 +128,7 @@ Map make_derivative_map(const Image& image, double range, bool green_up, Neutral
     texel[0] = static_cast<float>(d.x);
     texel[1] = static_cast<float>(green_up ? d.y : -d.y);
   });
-  return with_pyramid(rows, image.width, image.height, 2, code_for(image, rows));
+  return with_pyramid(rows, image.width, image.height, 2, code_for(image, rows), read);
 }
 
 Map make_direction_map(const Image& image, bool green_up) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace surfgrad::image {
@@ -74,6 +75,10 @@ struct SlopeMap {
   std::int64_t inward_texels = 0;                ///< z <= 0: no height field has them
 };
 
+/// Called with rows of an image, first to end - 1, that have been read for the last time, from any thread;
+/// not for every row.
+using RowsRead = std::function<void(int first, int end)>;
+
 /// Slopes of a tangent-space normal map (code values 0..1 mean -1..1).
 ///
 /// image     at least two channels; three where `channels` is xyz
@@ -82,7 +87,8 @@ struct SlopeMap {
 /// returns   slope16 for 8-bit files without slopes of 4 or more, else floats. slope16 rounds a component by
 ///           at most 2^-14 (6.1e-5), less than a hundredth of the step from code to code.
 /// source    derivative_from_normal, texel by texel
-[[nodiscard]] SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up);
+[[nodiscard]] SlopeMap make_slope_map(const Image& image, NormalChannels channels, bool green_up,
+                                      const RowsRead& read = {});
 
 /// The same normal map kept as it is encoded, components from -1 to 1 and levels that average those: what
 /// graphics hardware filters. It flattens tilted bumps and lets long vectors outweigh short ones; it is
@@ -112,7 +118,7 @@ enum class NeutralCode {
 ///           not finite texels of a float file are flat. In the formats of make_slope_map.
 /// source    Mikkelsen 2019, section 2.1: what a normal map is converted to, stored as it is
 [[nodiscard]] Map make_derivative_map(const Image& image, double range, bool green_up,
-                                      NeutralCode neutral = NeutralCode::between);
+                                      NeutralCode neutral = NeutralCode::between, const RowsRead& read = {});
 
 /// Unit directions of an object- or world-space normal map; zero vectors stay zero, and so become
 /// those that are not finite. The image must have at least three channels.

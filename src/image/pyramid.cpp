@@ -102,7 +102,8 @@ struct Level {
   int width;
   int height;
   std::size_t row_floats;
-  const TexelRows* rows; ///< null for those that lie in `texels`
+  const TexelRows* rows;          ///< null for those that lie in `texels`
+  const RowsRead* read = nullptr; ///< of `rows`
   Floats texels{};
 
   /// The first of these rows, which follow each other.
@@ -163,6 +164,8 @@ Level store_and_halve_evenly(const Level& level, int index, int count, Map& map)
     thread_local Floats made;
     thread_local std::array<Floats, 2> halved;
     const float* texels = level.band(first, end, made);
+    // An odd side would have rows that two bands read: its maps keep theirs.
+    if (level.read != nullptr && *level.read) (*level.read)(static_cast<int>(first), static_cast<int>(end));
     for (int i = 0; i < count; ++i) {
       for (std::size_t y = first; y < end; ++y) store(texels + (y - first) * row_floats, y, index + i, map);
       first /= 2;
@@ -306,7 +309,8 @@ TexelRows rows_of(const std::vector<float>& texels, int width, int components) {
   };
 }
 
-Map with_pyramid(const TexelRows& rows, int width, int height, int components, TexelCode code) {
+Map with_pyramid(const TexelRows& rows, int width, int height, int components, TexelCode code,
+                 const RowsRead& read) {
   assert(std::max(width, height) <= map_most_texels);
   Map map;
   map.components = components;
@@ -317,7 +321,8 @@ Map with_pyramid(const TexelRows& rows, int width, int height, int components, T
   map.words.resize(static_cast<std::size_t>(words + words_read_ahead));
   std::fill(map.words.end() - words_read_ahead, map.words.end(), 0);
   add_levels(width, height, map);
-  Level level{width, height, static_cast<std::size_t>(width) * static_cast<std::size_t>(components), &rows};
+  Level level{width, height, static_cast<std::size_t>(width) * static_cast<std::size_t>(components), &rows,
+              &read};
   for (int index = 0; index + 1 < map.level_count;) {
     // Three of them: the floats of the fourth are the first to be kept, a sixty-fourth of all texels.
     const int even = even_halvings(level.width, level.height, 3);

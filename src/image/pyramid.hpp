@@ -24,8 +24,10 @@ using TexelRows = std::function<void(int y, float* texels)>;
 /// its exact footprint in the level above, so that odd sizes neither shift nor lose energy. Texels must be
 /// finite: a level spreads what is not. Averages are of floats; codes are rounded from those, so that
 /// rounding does not add up over levels.
+///
+/// read  of rows that are made for the last time
 [[nodiscard]] Map with_pyramid(const TexelRows& rows, int width, int height, int components,
-                               TexelCode code = {});
+                               TexelCode code = {}, const RowsRead& read = {});
 
 /// slope16 for slopes below 4 in magnitude, with the smallest power of two for which codes suffice; floats
 /// for steeper ones. A power of two makes decoding exact, whether before filtering or after.

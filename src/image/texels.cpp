@@ -1,6 +1,12 @@
 #include "image/texels.hpp"
 
 #include <algorithm>
+#include <cstdint>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 namespace surfgrad::image {
 namespace {
@@ -18,6 +24,23 @@ const float* Texels::read(std::size_t first, std::size_t count, float* scratch) 
   if (const auto* codes = std::get_if<Codes8>(&values_)) return decode(*codes, first, count, scratch);
   if (const auto* codes = std::get_if<Codes16>(&values_)) return decode(*codes, first, count, scratch);
   return std::get<Floats>(values_).data() + first;
+}
+
+void Texels::give_back([[maybe_unused]] std::size_t first, [[maybe_unused]] std::size_t count) {
+#ifdef __linux__
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  std::visit(
+      [&](auto& values) {
+        const auto begin = reinterpret_cast<std::uintptr_t>(values.data() + first);
+        const auto end = reinterpret_cast<std::uintptr_t>(values.data() + first + count);
+        const std::uintptr_t first_page = (begin + page - 1) / page * page;
+        const std::uintptr_t last_page = end / page * page;
+        // Advice: where it is not taken, the memory is there until the array goes.
+        if (first_page < last_page)
+          madvise(reinterpret_cast<void*>(first_page), last_page - first_page, MADV_DONTNEED);
+      },
+      values_);
+#endif
 }
 
 Texels::Floats& Texels::floats() {

@@ -55,6 +55,10 @@ class Texels {
     return std::visit(reader, values_);
   }
 
+  /// Gives back the memory of these, which must not be read again, where the system takes parts of an array
+  /// (Linux, whole pages). Others may be read and given back at the same time.
+  void give_back(std::size_t first, std::size_t count);
+
   /// All of them, to be written to.
   [[nodiscard]] Floats& floats();
 

@@ -73,6 +73,12 @@ class Images {
   [[nodiscard]] const image::Image& find(const std::filesystem::path& file) const {
     return *entries_.at(file).image;
   }
+  /// The image if nobody reads it after the layer that does now.
+  [[nodiscard]] image::Image* expendable(const std::filesystem::path& file) const {
+    const Entry& entry = entries_.at(file);
+    const bool ours_alone = entry.uses == 1 && entry.image.use_count() == 1;
+    return ours_alone ? std::const_pointer_cast<image::Image>(entry.image).get() : nullptr;
+  }
   void no_more_for(const stack::Layer& layer) {
     for (const stack::FileName* name : stack::files_of(layer))
       if (--entries_.at(name->path).uses == 0) entries_.erase(name->path);
@@ -96,7 +102,7 @@ Stage::Stage(scene::Scene scene, const View& view, const std::vector<raster::UvS
   Images images(std::exchange(scene_.images, {}), scene_.materials);
   engine::MapLibrary maps(
       [&](const std::filesystem::path& file) -> const image::Image& { return images.find(file); },
-      scene_.source);
+      scene_.source, [&](const std::filesystem::path& file) { return images.expendable(file); });
   for (const scene::Material& material : scene_.materials)
     programs_.push_back(engine::compile(material.layers, slots_, maps,
                                         [&](const stack::Layer& layer) { images.no_more_for(layer); }));
