@@ -30,9 +30,11 @@ HWY_INLINE void stream(T a, float* to) {
 template <int ahead, class Pixel>
 void for_each_pack(const Planes& planes, int begin, int end, Stores stores, const Pixel& pixel) {
   for (int i = begin; i < end; i += lane_count<T>) {
-    if (ahead > 0 && stores == Stores::streaming)
-      for (const float* plane : planes.in) fetch_ahead(plane + i + ahead * lane_count<T>);
-    const V3 n = pixel([&](int plane) { return load<T>(planes.in[static_cast<std::size_t>(plane)] + i); });
+    const V3 n = pixel([&](int plane) {
+      const float* from = planes.in[static_cast<std::size_t>(plane)] + i;
+      if (ahead > 0 && stores == Stores::streaming) fetch_ahead(from + ahead * lane_count<T>);
+      return load<T>(from);
+    });
     if (stores == Stores::streaming) {
       stream(n.x, planes.out[0] + i);
       stream(n.y, planes.out[1] + i);
@@ -48,7 +50,7 @@ void for_each_pack(const Planes& planes, int begin, int end, Stores stores, cons
 } // namespace
 
 void compose_planes(const Planes& planes, int begin, int end, Stores stores) {
-  for_each_pack<8>(planes, begin, end, stores, [](const auto& in) {
+  for_each_pack<6>(planes, begin, end, stores, [](const auto& in) {
     const auto frame = make_frame(V3{in(0), in(1), in(2)}, V3{in(3), in(4), in(5)}, V3{in(6), in(7), in(8)});
     const auto layer = [&](int k) {
       const int at = 9 + 4 * k;

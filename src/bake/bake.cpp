@@ -166,8 +166,8 @@ class Bands {
     }
     float* const first = &band.texels[band.index(tile.x / options_.samples, 0)];
     const auto put = [&](std::size_t texel, vec3<float> normal) {
-      const Format::Encoded encoded = format_->encode(normal, first + own.texel_of[texel]);
       ++own.counts.covered;
+      const Format::Encoded encoded = format_->encode(normal, first + own.texel_of[texel]);
       own.counts.beyond_range += encoded.clamped ? 1 : 0;
       own.counts.steepest = std::max<double>(own.counts.steepest, encoded.steepest);
     };
@@ -191,7 +191,14 @@ class Bands {
         if (options_.padding > 0 || options_.fill) first[texel] = uncovered;
       }
     if (options_.samples == 1) {
-      for (int i = 0; i < composed.count; ++i) put(static_cast<std::size_t>(composed.pixel[i]), normal(i));
+      const auto texel = [&](int i) { return static_cast<std::size_t>(composed.pixel[i]); };
+      if (format_->holds_slopes()) {
+        for (int i = 0; i < composed.count; ++i) put(texel(i), normal(i));
+      } else { // nothing to count but how many there are
+        own.counts.covered += composed.count;
+        for (int i = 0; i < composed.count; ++i)
+          format_->encode_components(normal(i), first + own.texel_of[texel(i)]);
+      }
       return;
     }
     own.means.start(options_.space, grid);
@@ -203,9 +210,9 @@ class Bands {
 
   static void count_samples(const stage::ComposedTile& composed, const EncodeWork& work, Counts& counts) {
     const auto set = [&](const float* flags) {
-      float sum = 0; // whole numbers within a tile
-      for (int i = 0; i < composed.count; ++i) sum += flags[i];
-      return static_cast<std::int64_t>(sum);
+      int count = 0; // as wide as the flags, or the loop takes twice as long
+      for (int i = 0; i < composed.count; ++i) count += flags[i] != 0 ? 1 : 0;
+      return count;
     };
     counts.samples += composed.count;
     counts.touched += composed.touched;

@@ -39,6 +39,7 @@ std::vector<float> Format::flat() const {
 
 Format::Encoded Format::encode_slopes(vec3<float> normal, float* texel) const {
   Encoded result;
+  normal.y *= green_sign_;
   vec2<float> slope = derivative_from_normal(normal);
   result.steepest = max_abs(slope);
   if (codes_ && result.steepest > static_cast<float>(range_)) {

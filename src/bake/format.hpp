@@ -23,14 +23,18 @@ class Format {
     float steepest = 0;   ///< the larger of its slopes, where slopes are stored
     bool clamped = false; ///< it is beyond the range; its direction is kept
   };
+  [[nodiscard]] bool holds_slopes() const { return encoding_ == Encoding::derivative; }
   /// texel  `channels` values
   Encoded encode(vec3<float> normal, float* texel) const {
-    normal.y *= green_sign_;
-    if (encoding_ == Encoding::derivative) return encode_slopes(normal, texel);
-    texel[0] = 0.5f * normal.x + 0.5f;
-    texel[1] = 0.5f * normal.y + 0.5f;
-    if (channels_ == 3) texel[2] = encoding_ == Encoding::rgb ? 0.5f * normal.z + 0.5f : 1.0f;
+    if (holds_slopes()) return encode_slopes(normal, texel);
+    encode_components(normal, texel);
     return {};
+  }
+  /// The same where no slopes are held.
+  void encode_components(vec3<float> normal, float* texel) const {
+    texel[0] = 0.5f * normal.x + 0.5f;
+    texel[1] = 0.5f * (green_sign_ * normal.y) + 0.5f;
+    if (channels_ == 3) texel[2] = encoding_ == Encoding::rgb ? 0.5f * normal.z + 0.5f : 1.0f;
   }
   /// Some multiple of the normal that every reader makes of a texel of a file.
   ///

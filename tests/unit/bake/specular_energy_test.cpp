@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, SpecularEnergy,
                                               std::numbers::pi / 2},
                                          Case{"light and viewer within 1 radian of the normal", 1, 1.0},
                                          Case{"within 1 radian, bumps a quarter as high", 0.25, 1.0}),
-                         [](const auto& info) { return "Case" + std::to_string(info.index); });
+                         [](const auto& one) { return "Case" + std::to_string(one.index); });
 
 } // namespace
 } // namespace surfgrad::bake
