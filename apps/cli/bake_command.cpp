@@ -1,12 +1,12 @@
 #include "bake/bake.hpp"
 #include "bake/verify.hpp"
+#include "bake_job.hpp"
 #include "bake_record.hpp"
 #include "bake_summary.hpp"
 #include "batch.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "gltf_output.hpp"
-#include "io/extension.hpp"
 #include "io/file.hpp"
 #include "io/image_file.hpp"
 #include "io/model_files.hpp"
@@ -17,14 +17,10 @@
 #include "output_set.hpp"
 #include "shard.hpp"
 
-#include <surfgrad/derivative.hpp>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -37,11 +33,7 @@ namespace {
 
 struct BakeCommand {
   CommonOptions common;
-  bake::Options job{};
-  std::string padding = "16"; // mip levels down to a sixteenth stay within the island
-  std::optional<double> range;
-  std::optional<stack::NeutralCode> neutral;
-  std::optional<bool> dither;
+  BakeJob job;
   bool verify = false;
   GltfOutput gltf;
   LostDetailOutput lost_detail;
@@ -52,52 +44,6 @@ struct BakeCommand {
   const CLI::App* verb = nullptr;
   std::shared_ptr<OutputSet> outputs = std::make_shared<OutputSet>(); // of all scenes
 };
-
-// Triangles are sorted into tiles of some tens of samples: as many tiles as fit into some tens of megabytes.
-constexpr int most_samples_a_side = 65536;
-
-constexpr int most_padding = 256; // a window of that many rows is kept
-
-void set_padding(const std::string& text, bake::Options& job) {
-  job.fill = text == "fill";
-  if (job.fill) return;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), job.padding);
-  if (error != std::errc() || end != text.data() + text.size() || job.padding < 0 ||
-      job.padding > most_padding)
-    throw CLI::ValidationError(
-        "--padding", fmt::format("\"{}\" is not a whole number from 0 to {}, or fill", text, most_padding));
-}
-
-/// What the options say together. Throws CLI::ValidationError for those that contradict each other.
-bake::Options job_of(const BakeCommand& command, image::Depth depth) {
-  bake::Options job = command.job;
-  const Size size = parse_size(command.common.size);
-  job.width = size.width;
-  job.height = size.height;
-  job.depth = depth;
-  set_padding(command.padding, job);
-  if (job.encoding != bake::Encoding::rgb && job.space != bake::Space::tangent)
-    throw CLI::ValidationError("--encoding", "two channels hold normals of --space tangent alone");
-  const bool derivative = job.encoding == bake::Encoding::derivative;
-  if (command.range && !derivative) throw CLI::ValidationError("--range", "is for --encoding derivative");
-  if (command.range && !(*command.range > 0 && *command.range <= max_slope))
-    throw CLI::ValidationError("--range", fmt::format("must be a slope above 0, up to {}", max_slope));
-  if (command.neutral && !(derivative && image::is_integer(depth)))
-    throw CLI::ValidationError("--neutral", "is for --encoding derivative and the depths 8 and 16");
-  if (command.dither && depth != image::Depth::unorm8)
-    throw CLI::ValidationError("--dither", "is for --depth 8");
-  if (job.samples * std::max(job.width, job.height) > most_samples_a_side)
-    throw CLI::ValidationError("--samples",
-                               fmt::format("{} along each side of a texel of this --size are more than "
-                                           "{} along a side of the map",
-                                           job.samples, most_samples_a_side));
-  job.range = command.range.value_or(job.range);
-  job.neutral = command.neutral.value_or(job.neutral);
-  job.dither = command.dither.value_or(depth == image::Depth::unorm8);
-  // The two channels of a PNG are grey and opacity.
-  job.full_blue = job.encoding != bake::Encoding::rgb && io::lower_extension(command.common.output) == ".png";
-  return job;
-}
 
 constexpr std::string_view udim_mark = "<UDIM>";
 
@@ -230,7 +176,7 @@ void bake_scene(BakeCommand& command, std::size_t number, const ChosenDevice& de
                 nlohmann::json& summary) {
   const std::filesystem::path output = command.common.output;
   const image::Depth depth = depth_for(output, command.common.depth, image::Depth::unorm16);
-  bake::Options job = job_of(command, depth);
+  bake::Options job = command.job.options(parse_size(command.common.size), depth, output);
   job.backend = device.backend();
   command.outputs->check_outputs(command.common.scene);
   check_output(output, depth);
@@ -330,42 +276,6 @@ void run(BakeCommand& command) {
   });
 }
 
-/// How a texel stands for a normal.
-void add_encoding_options(CLI::App& verb, BakeCommand& command) {
-  const std::map<std::string, bake::Encoding> encodings{
-      {"rgb", bake::Encoding::rgb}, {"rg", bake::Encoding::rg}, {"derivative", bake::Encoding::derivative}};
-  verb.add_option(
-          "--encoding", command.job.encoding,
-          "rgb (default); rg: two channels, z is reconstructed (BC5); derivative: slopes, as the layer\n"
-          "derivative_map reads them")
-      ->transform(one_of(encodings))
-      ->type_name("NAME")
-      ->option_text("NAME");
-  verb.add_option("--range", command.range, "slope of the largest code of --encoding derivative (default: 1)")
-      ->type_name("SLOPE");
-  const std::map<std::string, stack::NeutralCode> neutrals{{"between", stack::NeutralCode::between},
-                                                           {"whole", stack::NeutralCode::whole}};
-  verb.add_option(
-          "--neutral", command.neutral,
-          "code of --encoding derivative that means flat: between (default), 127.5 of 255, or whole, 128")
-      ->transform(one_of(neutrals))
-      ->type_name("NAME")
-      ->option_text("NAME");
-  const std::map<std::string, stack::Green> greens{{"up", stack::Green::up}, {"down", stack::Green::down}};
-  verb.add_option("--green", command.job.green,
-                  "up (default): green grows along the map's upward direction, as in glTF, Unity, Godot and\n"
-                  "Blender; down: against it, as in Unreal")
-      ->transform(one_of(greens))
-      ->type_name("NAME")
-      ->option_text("NAME");
-  const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
-  verb.add_option("--dither", command.dither,
-                  "on (default) or off: with --depth 8, noise in place of terraces; flat texels stay flat")
-      ->transform(one_of(switches))
-      ->type_name("NAME")
-      ->option_text("NAME");
-}
-
 } // namespace
 
 void add_bake_command(CLI::App& program) {
@@ -393,28 +303,7 @@ void add_bake_command(CLI::App& program) {
       ->type_name("FILE");
   command->names.add_option(verb);
   add_picture_options(verb, command->common, "16");
-  verb.add_option("--uv", command->job.uv_set, "UV set that the map is laid out in")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 7))
-      ->type_name("SET");
-  const std::map<std::string, bake::Space> spaces{
-      {"tangent", bake::Space::tangent}, {"object", bake::Space::object}, {"world", bake::Space::world}};
-  verb.add_option("--space", command->job.space, "tangent (default), object or world")
-      ->transform(one_of(spaces))
-      ->type_name("NAME")
-      ->option_text("NAME");
-  add_encoding_options(verb, *command);
-  verb.add_option(
-          "--samples", command->job.samples,
-          "samples along each side of a texel; their slopes are averaged, and a texel is covered where\n"
-          "one of them is")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 16));
-  verb.add_option("--padding", command->padding,
-                  "texels around the islands that repeat their border, so that filters and mip levels\n"
-                  "do not show what lies between; 0 for none, fill for all (the map is held in memory)")
-      ->capture_default_str()
-      ->type_name("N|fill");
+  command->job.add_options(verb);
   verb.add_flag(
       "--verify", command->verify,
       "decode the written map as an engine does and print how far its normals are from the stack's:\n"

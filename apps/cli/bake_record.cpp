@@ -2,7 +2,6 @@
 
 #include "diagnostic/error.hpp"
 #include "interrupt.hpp"
-#include "io/digest.hpp"
 #include "io/file.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 bool hold_the_same(const nlohmann::json& digests) {
   for (const auto& [file, digest] : digests.items()) {
     std::error_code gone;
-    if (!fs::is_regular_file(file, gone) || io::digest(io::read_file(file)) != digest.get<std::string>())
+    if (!fs::is_regular_file(file, gone) || io::digest_of_file(file) != digest.get<std::string>())
       return false;
   }
   return true;
@@ -60,7 +59,7 @@ void BakeRecord::write(const std::map<fs::path, std::string>& inputs,
   nlohmann::json record{
       {"job", job_}, {"inputs", nlohmann::json::object()}, {"outputs", nlohmann::json::object()}};
   for (const fs::path& output : outputs)
-    record["outputs"][fs::absolute(output).string()] = io::digest(io::read_file(output));
+    record["outputs"][fs::absolute(output).string()] = io::digest_of_file(output);
   for (const auto& [file, digest] : inputs)
     if (!record["outputs"].contains(file.string())) record["inputs"][file.string()] = digest;
   const std::string text = text_of(record);

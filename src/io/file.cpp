@@ -1,10 +1,12 @@
 #include "io/file.hpp"
 
 #include "diagnostic/error.hpp"
+#include "io/digest.hpp"
 #include "io/read_log.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -12,6 +14,7 @@
 #include <memory>
 #include <new>
 #include <random>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -62,9 +65,25 @@ fs::path checked_target(const fs::path& file) {
   return target;
 }
 
-} // namespace
+/// A regular file, open.
+struct Opened {
+  std::ifstream stream;
+  std::uintmax_t size = 0;
+  std::uintmax_t done = 0; ///< bytes read
 
-std::vector<std::byte> read_file(const fs::path& file) {
+  /// The next bytes.
+  void read(std::span<std::byte> bytes, const fs::path& file) {
+    if (bytes.empty()) return;
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    done += static_cast<std::uintmax_t>(stream.gcount());
+    if (!stream)
+      throw InputError({.file = file,
+                        .problem = fmt::format("only {} of {} bytes could be read", done, size),
+                        .remedy = "check that nothing else changes the file and that its disk is sound"});
+  }
+};
+
+Opened open_to_read(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found)
@@ -78,29 +97,46 @@ std::vector<std::byte> read_file(const fs::path& file) {
   if (status.type() != fs::file_type::regular)
     throw InputError({.file = file, .problem = "is not a regular file", .remedy = "give the name of a file"});
 
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream)
+  Opened opened;
+  opened.size = fs::file_size(file, error);
+  opened.stream.open(file, std::ios::binary);
+  if (error || !opened.stream)
     throw InputError({.file = file,
                       .problem = "cannot be opened for reading",
                       .remedy = "check the permissions of the file"});
-  if (size > max_file_bytes)
+  return opened;
+}
+
+} // namespace
+
+std::vector<std::byte> read_file(const fs::path& file) {
+  Opened opened = open_to_read(file);
+  if (opened.size > max_file_bytes)
     throw InputError({.file = file,
-                      .problem = fmt::format("has {} bytes", size),
+                      .problem = fmt::format("has {} bytes", opened.size),
                       .remedy = fmt::format("at most {} bytes can be read", max_file_bytes)});
   std::vector<std::byte> bytes;
   try {
-    bytes.resize(static_cast<std::size_t>(size));
+    bytes.resize(static_cast<std::size_t>(opened.size));
   } catch (const std::bad_alloc&) {
-    throw MachineError(fmt::format("{}: not enough memory to read {} bytes", file.string(), size));
+    throw MachineError(fmt::format("{}: not enough memory to read {} bytes", file.string(), opened.size));
   }
-  if (size > 0) stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!stream)
-    throw InputError({.file = file,
-                      .problem = fmt::format("only {} of {} bytes could be read", stream.gcount(), size),
-                      .remedy = "check that nothing else changes the file and that its disk is sound"});
+  opened.read(bytes, file);
   note_read(file, bytes);
   return bytes;
+}
+
+std::string digest_of_file(const fs::path& file) {
+  Opened opened = open_to_read(file);
+  Digest digest;
+  std::vector<std::byte> piece;
+  constexpr std::uintmax_t piece_bytes = 1 << 20;
+  for (std::uintmax_t left = opened.size; left > 0; left -= piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min(left, piece_bytes)));
+    opened.read(piece, file);
+    digest.add(piece);
+  }
+  return digest.text();
 }
 
 OutputFile::OutputFile(const fs::path& file) : target_(checked_target(file)) {

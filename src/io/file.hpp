@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace surfgrad::io {
@@ -16,6 +17,12 @@ namespace surfgrad::io {
 /// Throws InputError where `file` is missing, cannot be read, is not a regular file (a folder, a
 /// device, a pipe) or is larger than 8 GiB; MachineError where the content does not fit in memory.
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file);
+
+/// io::digest of a regular file's content, of any size, a piece of which is held at a time. Unlike read_file
+/// it is not noted by io::ReadLog.
+///
+/// Throws InputError as read_file does.
+[[nodiscard]] std::string digest_of_file(const std::filesystem::path& file);
 
 /// A file written piece by piece that appears whole or not at all. The pieces go to a temporary file
 /// beside the target, which commit() renames over it; without that the temporary is removed, and
