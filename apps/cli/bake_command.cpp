@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -90,8 +91,11 @@ nlohmann::json unchanged_summary(const std::filesystem::path& output) {
 }
 
 /// Bakes, verifies and tells of one map. Returns its summary for machines.
-nlohmann::json bake_map(BakeCommand& command, scene::Scene scene, const bake::Options& job,
-                        const std::filesystem::path& output, const ChosenDevice& device) {
+///
+/// stage  of the scene, if it is for other maps too; else the scene is given away where nothing else needs it
+nlohmann::json bake_map(BakeCommand& command, scene::Scene& scene, const stage::Stage* stage,
+                        const bake::Options& job, const std::filesystem::path& output,
+                        const ChosenDevice& device) {
   const bool is_one_of_many = command.scenes.size() > 1 || has_udim(command.common.output);
   Console console(is_one_of_many ? "baking " + output.filename().string() : "baking", command.common.quiet);
   const int channels = job.encoding == bake::Encoding::rgb || job.full_blue ? 3 : 2;
@@ -99,7 +103,9 @@ nlohmann::json bake_map(BakeCommand& command, scene::Scene scene, const bake::Op
   const auto write = [&](const image::Image& band) { file.write(band); };
   // Images leave a scene that is handed over; one that is verified or written is still needed.
   const bool is_kept = command.verify || command.gltf.is_wanted() || command.lost_detail.is_wanted();
-  bake::Counts baked = bake::bake_bands(is_kept ? scene : std::move(scene), job, write, console.report());
+  bake::Counts baked =
+      stage != nullptr ? bake::bake_bands(*stage, job, write, console.report())
+                       : bake::bake_bands(is_kept ? scene : std::move(scene), job, write, console.report());
   if (has_udim(command.common.output)) baked.outside = 0; // it is in another tile
   file.commit();
   command.lost_detail.write(scene, job, output, command.common.compression, command.common.quiet);
@@ -143,28 +149,45 @@ std::vector<std::filesystem::path> written_by(const BakeCommand& command,
 /// A map for each tile that the mesh lies in, and its summary for machines.
 ///
 /// number  of the scene among those of the command
-void bake_tiles(BakeCommand& command, const scene::Scene& scene, std::size_t number, bake::Options job,
+void bake_tiles(BakeCommand& command, scene::Scene scene, std::size_t number, bake::Options job,
                 const ChosenDevice& device, const io::ReadLog& log, nlohmann::json& summary) {
   const std::filesystem::path output = command.common.output;
   const auto inputs = log.files();
   const std::vector<bake::UdimTile> tiles = bake::udim_tiles(scene, job.uv_set);
   for (const bake::UdimTile& tile : tiles) check_is_no_input(scene, file_of_tile(output, tile), "--output");
-  nlohmann::json& summaries = summary["tiles"] = nlohmann::json::array();
-  Batch batch("tiles", tiles.size());
+  struct Tile {
+    bake::UdimTile tile;
+    std::filesystem::path file;
+    bool is_unchanged;
+  };
+  std::vector<Tile> mine;
   for (const bake::UdimTile& tile : tiles) {
     if (!command.shard.has(number++)) continue;
     const std::filesystem::path file = file_of_tile(output, tile);
-    job.tile = tile;
-    const auto failure = batch.run(file.string(), [&] {
-      if (is_unchanged(command, file, device)) {
-        summaries.push_back(unchanged_summary(file));
-        return;
-      }
-      summaries.push_back(bake_map(command, scene, job, file, device));
-      if (command.if_changed) BakeRecord(file, job_to_record(command, file, device)).write(inputs, {file});
-    });
-    if (failure) summaries.push_back({{"output", file.string()}, {"error", failure->what}});
-    summaries.back()["udim"] = tile.number();
+    mine.push_back({tile, file, is_unchanged(command, file, device)});
+  }
+  nlohmann::json& summaries = summary["tiles"] = nlohmann::json::array();
+  std::unique_ptr<const stage::Stage> stage;
+  if (std::any_of(mine.begin(), mine.end(), [](const Tile& t) { return !t.is_unchanged; })) {
+    Console console("preparing", command.common.quiet);
+    // Only what is verified needs the scene again.
+    stage.reset(
+        new stage::Stage(bake::stage_of(command.verify ? scene : std::move(scene), job, console.report())));
+  }
+  Batch batch("tiles", tiles.size());
+  for (const Tile& one : mine) {
+    if (one.is_unchanged) {
+      summaries.push_back(unchanged_summary(one.file));
+    } else {
+      job.tile = one.tile;
+      const auto failure = batch.run(one.file.string(), [&] {
+        summaries.push_back(bake_map(command, scene, stage.get(), job, one.file, device));
+        if (command.if_changed)
+          BakeRecord(one.file, job_to_record(command, one.file, device)).write(inputs, {one.file});
+      });
+      if (failure) summaries.push_back({{"output", one.file.string()}, {"error", failure->what}});
+    }
+    summaries.back()["udim"] = one.tile.number();
   }
   batch.finish();
 }
@@ -205,10 +228,10 @@ void bake_scene(BakeCommand& command, std::size_t number, const ChosenDevice& de
     for (const std::filesystem::path& file : io::files_named_by(scene.model))
       command.outputs->check_input(file, command.common.scene);
   if (tiled) {
-    bake_tiles(command, scene, number, job, device, log, summary);
+    bake_tiles(command, std::move(scene), number, job, device, log, summary);
     return;
   }
-  summary = bake_map(command, std::move(scene), job, output, device);
+  summary = bake_map(command, scene, nullptr, job, output, device);
   if (command.if_changed)
     BakeRecord(output, job_to_record(command, output, device))
         .write(log.files(), written_by(command, output));

@@ -10,7 +10,6 @@
 #include "diagnostic/error.hpp"
 #include "displace/scene.hpp"
 #include "simd/lane.hpp"
-#include "stage/stage.hpp"
 #include "stage/tile_composer.hpp"
 
 #include <fmt/format.h>
@@ -245,14 +244,13 @@ void refuse_layers_that_need_a_viewer(const scene::Scene& scene) {
                           .remedy = "leave it out, or give the heights to a layer of type \"height_map\""});
 }
 
-/// The scene made ready.
+} // namespace
+
 stage::Stage stage_of(scene::Scene scene, const Options& options, const Report& report) {
   refuse_layers_that_need_a_viewer(scene);
   if (auto displaced = displace::displaced(scene, report.at_the_start())) scene = std::move(displaced->scene);
   return {std::move(scene), {}, {{options.uv_set, options.space == Space::tangent}}, report, options.backend};
 }
-
-} // namespace
 
 NormalStatistics normal_statistics(scene::Scene scene, const Options& asked, const Report& report) {
   Options options = asked;
@@ -278,8 +276,12 @@ NormalStatistics normal_statistics(scene::Scene scene, const Options& asked, con
 
 Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
                   const Report& report) {
+  return bake_bands(stage_of(std::move(scene), options, report), options, take, report);
+}
+
+Counts bake_bands(const stage::Stage& stage, const Options& options, const stage::BandSink& take,
+                  const Report& report) {
   const Format format(options);
-  const stage::Stage stage = stage_of(std::move(scene), options, report);
   const std::size_t slot = stage.slot_of(options.uv_set);
   require_something_inside(stage.surfaces(), slot, options, stage.scene().source);
   Bands bands(stage, options, &format);

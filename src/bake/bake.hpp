@@ -7,6 +7,7 @@
 #include "stack/words.hpp"
 #include "stage/backend.hpp"
 #include "stage/bands.hpp"
+#include "stage/stage.hpp"
 
 #include <cstdint>
 
@@ -86,6 +87,15 @@ struct Baked : Counts {
 /// loses each image as soon as the last map is made of it. What throws because nothing is covered does so
 /// after the last band.
 Counts bake_bands(scene::Scene scene, const Options& options, const stage::BandSink& take,
+                  const Report& report = {});
+
+/// A scene made ready for bakes of one UV set in one space by one backend, of any tile and size: slopes with
+/// mip levels, tangents. Takes and throws as bake_bands.
+[[nodiscard]] stage::Stage stage_of(scene::Scene scene, const Options& options, const Report& report = {});
+/// The same as of its scene.
+///
+/// stage  of options with the same UV set, space and backend
+Counts bake_bands(const stage::Stage& stage, const Options& options, const stage::BandSink& take,
                   const Report& report = {});
 
 } // namespace surfgrad::bake
