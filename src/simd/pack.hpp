@@ -13,7 +13,6 @@
 #include <surfgrad/scalar.hpp>
 
 #include <array>
-#include <cstring>
 
 #ifndef SURFGRAD_ISA_NAMESPACE
 #error "simd/pack.hpp serves sources that are compiled for one instruction set at a time"
@@ -173,26 +172,27 @@ HWY_INLINE auto each_block(const Load& load, std::size_t first, std::size_t step
   }
 }
 
-/// The words at `index` and behind it, as gather reads them: two by a copy for each lane, four by a load and
-/// part of a shuffle. Either costs less than gathers of each word, and copies a fifth less than gathers of
-/// pairs (AMD family 26).
+/// The words at `index` and behind it, as gather reads them: two by a gather of pairs, four by a load and
+/// part of a shuffle for each lane. Either costs less than gathers of each word.
 template <int Count>
 HWY_INLINE std::array<Bits, Count> gather_words(Words words, Index index, Mask m) {
   static_assert(Count == 2 || Count == 4);
   const hn::Mask<BitsTag> mb = hn::RebindMask(BitsTag(), m.v);
   const hn::Vec<IndexTag> from = hn::IfThenElseZero(hn::RebindMask(IndexTag(), m.v), index.v);
-  alignas(64) std::int32_t at[pack_width];
-  hn::Store(from, IndexTag(), at);
+  const hn::Repartition<std::uint64_t, BitsTag> pair;
   if constexpr (Count == 2) {
-    alignas(64) std::uint32_t read[2 * pack_width];
-    for (std::size_t k = 0; k < pack_width; ++k)
-      std::memcpy(read + 2 * k, words.data + at[k], 2 * sizeof(std::uint32_t));
-    const hn::Vec<BitsTag> low = hn::Load(BitsTag(), read);
-    const hn::Vec<BitsTag> high = hn::Load(BitsTag(), read + pack_width);
+    const auto* base = reinterpret_cast<const std::uint64_t*>(words.data);
+    const auto pairs = [&](auto half) {
+      const auto offset = hn::ShiftLeft<2>(hn::PromoteTo(hn::Repartition<std::int64_t, BitsTag>(), half));
+      return hn::BitCast(BitsTag(), hn::GatherOffset(pair, base, offset));
+    };
+    const hn::Vec<BitsTag> low = pairs(hn::LowerHalf(hn::Half<IndexTag>(), from));
+    const hn::Vec<BitsTag> high = pairs(hn::UpperHalf(hn::Half<IndexTag>(), from));
     return {Bits(hn::IfThenElseZero(mb, hn::ConcatEven(BitsTag(), high, low))),
             Bits(hn::IfThenElseZero(mb, hn::ConcatOdd(BitsTag(), high, low)))};
   } else {
-    const hn::Repartition<std::uint64_t, BitsTag> pair;
+    alignas(64) std::int32_t at[pack_width];
+    hn::Store(from, IndexTag(), at);
     const auto load = [&](std::size_t lane) {
       return hn::LoadU(hn::FixedTag<std::uint32_t, 4>(), words.data + at[lane]);
     };
