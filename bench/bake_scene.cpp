@@ -9,7 +9,7 @@ namespace {
 
 /// A picture as a file holds it.
 std::shared_ptr<const image::Image> of_a_file(const image::Image& picture, image::Depth depth) {
-  return std::make_shared<const image::Image>(
+  return std::make_shared<image::Image>(
       io::decode_image(io::encode_image(picture, depth, io::ImageFormat::tiff), "memory"));
 }
 

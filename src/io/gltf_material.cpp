@@ -33,7 +33,7 @@ NamedImage read_named_image(const Document& document, int index) {
   const auto& [view, uri] = document.images[static_cast<std::size_t>(index)];
   const std::string place = fmt::format("images[{}]", index);
   const auto decoded = [](std::span<const std::byte> bytes, const std::filesystem::path& name) {
-    return NamedImage{name, std::make_shared<const image::Image>(decode_image(bytes, name)), nullptr};
+    return NamedImage{name, std::make_shared<image::Image>(decode_image(bytes, name)), nullptr};
   };
   if (view >= 0)
     return decoded(document.bytes_of_view(view), fmt::format("{}:{}", document.file.string(), place));

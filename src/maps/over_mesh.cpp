@@ -27,7 +27,7 @@ image::Image in_other_space(const image::Image& map, const OverMesh& job, const 
                             const Report& report) {
   scene::Scene scene = scene::load_scene(job.model, report);
   scene.images.clear();
-  scene.images[file] = std::make_shared<const image::Image>(map);
+  scene.images[file] = std::make_shared<image::Image>(map);
   for (scene::Material& material : scene.materials)
     material.layers = {job.to_object ? layer_of<stack::NormalMapLayer>(job, file)
                                      : layer_of<stack::ObjectNormalMapLayer>(job, file)};

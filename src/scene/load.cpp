@@ -100,7 +100,7 @@ class Files {
       const auto [at, is_new] = images_.try_emplace(name->path);
       if (!is_new) continue;
       jobs.emplace_back([&path = at->first, &image = at->second.content] {
-        image = std::make_shared<const image::Image>(io::read_image(path));
+        image = std::make_shared<image::Image>(io::read_image(path));
       });
       errors.push_back(&at->second.error);
     }

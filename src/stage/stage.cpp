@@ -73,7 +73,8 @@ class Images {
   [[nodiscard]] const image::Image& find(const std::filesystem::path& file) const {
     return *entries_.at(file).image;
   }
-  /// The image if nobody reads it after the layer that does now.
+  /// The image if nobody reads it after the layer that does now. It is const only to those who share it: none
+  /// is made as a constant.
   [[nodiscard]] image::Image* expendable(const std::filesystem::path& file) const {
     const Entry& entry = entries_.at(file);
     const bool ours_alone = entry.uses == 1 && entry.image.use_count() == 1;
