@@ -80,6 +80,15 @@ SURFGRAD_HOST_DEVICE constexpr void split_whole(V& rest, V& power) {
   power *= std::bit_cast<V>(static_cast<float_bits<V>>(whole + bias) << fraction_bits<V>);
 }
 
+/// The same of any Scalar, by its own split_exponent or by a ladder: right from 2^(1 - 2 widest) to 2^(2 widest).
+template <int widest, Scalar T>
+SURFGRAD_HOST_DEVICE constexpr void take_exponent(T& m, T& exponent) {
+  if constexpr (requires { split_exponent(m, exponent); })
+    split_exponent(m, exponent);
+  else
+    extract_exponent<widest>(m, exponent);
+}
+
 } // namespace detail
 
 /// Base-2 logarithm.
@@ -97,11 +106,7 @@ template <Scalar T>
   T m = max(a, T(std::numeric_limits<value_t<T>>::min()));
   m = min(m, T(std::numeric_limits<value_t<T>>::max()));
   T exponent = zero;
-  using detail::split_exponent;
-  if constexpr (requires { split_exponent(m, exponent); })
-    split_exponent(m, exponent);
-  else
-    detail::extract_exponent<widest>(m, exponent);
+  detail::take_exponent<widest>(m, exponent);
   // Centre the range on 1: m in [sqrt(1/2), sqrt(2)), where log2(m) = 2/ln2 * atanh((m-1)/(m+1)).
   const mask_t<T> upper = constant<T>(1.41421356237309514547) < m;
   m = select(upper, m * constant<T>(0.5), m);

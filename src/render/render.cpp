@@ -113,15 +113,15 @@ class Bands {
         std::fill_n(samples.y + y * tile.width, tile.width, empty.y);
         std::fill_n(samples.z + y * tile.width, tile.width, empty.z);
       }
-    float degenerate = 0; // a whole number within a tile
     for (int i = 0; i < composed.count; ++i) {
       samples.x[composed.pixel[i]] = from.x[i];
       samples.y[composed.pixel[i]] = from.y[i];
       samples.z[composed.pixel[i]] = from.z[i];
-      degenerate += composed.results.degenerate[i];
     }
+    int degenerate = 0; // in whole numbers, which are vectorised: sums of floats keep their order
+    for (int i = 0; i < composed.count; ++i) degenerate += composed.results.degenerate[i] != 0 ? 1 : 0;
     covered_ += composed.count;
-    degenerate_ += static_cast<std::int64_t>(degenerate);
+    degenerate_ += degenerate;
     for (float* channel : {samples.x, samples.y, samples.z}) {
       average(tile, channel);
       if (beauty) to_display(channel, area / (side_ * side_));

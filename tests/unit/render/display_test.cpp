@@ -27,7 +27,7 @@ void compare_with_definition(const char* what) {
   for (int i = 0; i <= 160000; ++i) {
     const T linear = static_cast<T>(i * 1e-4);
     // The bound that display_value states.
-    worst.add(display_value(linear), defined(linear), 6 * eps * (defined(linear) + 0.055), i);
+    worst.add(display_value(linear), defined(linear), 4 * eps * (defined(linear) + 0.055), i);
   }
 }
 
