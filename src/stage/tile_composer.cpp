@@ -125,22 +125,18 @@ void TileComposer::collect(Scratch& s) const {
     first += shown[i].pixels;
   }
   const raster::Tile& tile = s.composed.tile;
-  const auto owners = s.scan.owners();
-  for (int y = 0; y < tile.height; ++y)
-    for (int x = 0; x < tile.width;) {
-      const int run = x;
-      const int owner = owners[static_cast<std::size_t>(y * tile.width + run)];
-      while (x < tile.width && owners[static_cast<std::size_t>(y * tile.width + x)] == owner) ++x;
-      if (owner == raster::TileScan::nothing) continue;
-      auto at = static_cast<std::size_t>(s.next[static_cast<std::size_t>(owner)]);
-      s.next[static_cast<std::size_t>(owner)] += x - run;
-      for (int column = run; column < x; ++column, ++at) {
-        s.which[at] = owner;
-        s.pixel[at] = y * tile.width + column;
-        s.x[at] = static_cast<float>(tile.x + column) + 0.5f;
-        s.y[at] = static_cast<float>(tile.y + y) + 0.5f;
-      }
+  for (const raster::TileScan::Run& run : s.scan.runs()) {
+    const auto begin = static_cast<std::size_t>(s.next[static_cast<std::size_t>(run.owner)]);
+    s.next[static_cast<std::size_t>(run.owner)] += run.count;
+    const float y = static_cast<float>(tile.y + run.y) + 0.5f;
+    for (int i = 0; i < run.count; ++i) {
+      const std::size_t at = begin + static_cast<std::size_t>(i);
+      s.which[at] = run.owner;
+      s.pixel[at] = run.y * tile.width + run.x + i;
+      s.x[at] = static_cast<float>(tile.x + run.x + i) + 0.5f;
+      s.y[at] = y;
     }
+  }
   s.composed.count = first;
   s.setups.resize(shown.size());
   for (std::size_t i = 0; i < shown.size(); ++i) {
