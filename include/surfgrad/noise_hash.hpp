@@ -12,15 +12,20 @@ inline constexpr int noise_extent = 1 << 29;
 
 namespace detail {
 
-/// A small integer in every index lane.
+/// A small integer in every index lane. The scalar concept only has conversions from T; lanes that are made
+/// from a number save them.
 template <LaneScalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr index_t<T> index_constant(int i) {
-  return to_index(T(static_cast<value_t<T>>(i)));
+  if constexpr (std::constructible_from<index_t<T>, std::int32_t>)
+    return index_t<T>(static_cast<std::int32_t>(i));
+  else
+    return to_index(T(static_cast<value_t<T>>(i)));
 }
 
-/// A word in every lane. The scalar concept only has conversions from T, exact for 16 bits at a time.
+/// A word in every lane: by conversions exact for 16 bits at a time.
 template <LaneScalar T>
 [[nodiscard]] SURFGRAD_HOST_DEVICE constexpr bits_t<T> bits_constant(std::uint32_t word) {
+  if constexpr (std::constructible_from<bits_t<T>, std::uint32_t>) return bits_t<T>(word);
   const bits_t<T> high = bits_t<T>(index_constant<T>(static_cast<int>(word >> 16)));
   const bits_t<T> low = bits_t<T>(index_constant<T>(static_cast<int>(word & 0xffffu)));
   return (high << 16) + low;

@@ -15,8 +15,8 @@ struct BumpMap {
 /// tiling, or for heights (dh/ds, dh/dt) in units of the height, which the tiling multiplies.
 /// Heights are no steeper than 1e12 along either, so that no transform makes them infinite.
 template <LaneScalar T>
-[[nodiscard]] vec2<T> derivative(const BumpMap& bumps, std::type_identity_t<PlanePlace<T>> st,
-                                 vec2<T> footprint_dx, vec2<T> footprint_dy) {
+[[nodiscard]] vec2<T> derivative(const BumpMap& bumps, const std::type_identity_t<PlanePlace<T>>& st,
+                                 const vec2<T>& footprint_dx, const vec2<T>& footprint_dy) {
   if (!bumps.heights)
     return along_coordinate(bumps.tiled, sample_slopes(bumps.tiled, st, footprint_dx, footprint_dy));
   const vec2<T> dh = sample_height_slopes(bumps.tiled, st, footprint_dx, footprint_dy);

@@ -35,9 +35,15 @@ struct Texture {
   int slot = 0;
 };
 
+/// Most maps are not turned: what would turn them is left out.
+[[nodiscard]] inline bool turned(const TiledMap& tiled) {
+  return !(tiled.rotation.x == 1 && tiled.rotation.y == 0);
+}
+
 /// v turned counter-clockwise by the map's rotation.
 template <Scalar T>
 [[nodiscard]] vec2<T> rotated(const TiledMap& tiled, vec2<T> v) {
+  if (!turned(tiled)) return v;
   const T c = constant<T>(tiled.rotation.x);
   const T s = constant<T>(tiled.rotation.y);
   return {c * v.x - s * v.y, s * v.x + c * v.y};
@@ -107,25 +113,29 @@ template <LaneScalar T>
                              tiled.anisotropy);
 }
 
+/// v turned clockwise by the map's rotation.
+template <Scalar T>
+[[nodiscard]] vec2<T> rotated_back(const TiledMap& tiled, vec2<T> v) {
+  if (!turned(tiled)) return v;
+  const T c = constant<T>(tiled.rotation.x);
+  const T s = constant<T>(tiled.rotation.y);
+  return {c * v.x + s * v.y, c * v.y - s * v.x};
+}
+
 /// A slope of the map's image expressed along st again: the rotation undone, mirrored axes turned over.
 /// The size of the tile is left alone: a bump as steep in the map is as steep on the surface, however
 /// often the map repeats (section 2.5).
 template <Scalar T>
 [[nodiscard]] vec2<T> along_coordinate(const TiledMap& tiled, vec2<T> v) {
-  const T c = constant<T>(tiled.rotation.x);
-  const T s = constant<T>(tiled.rotation.y);
-  return {constant<T>(tiled.tile.x < 0 ? -1 : 1) * (c * v.x + s * v.y),
-          constant<T>(tiled.tile.y < 0 ? -1 : 1) * (c * v.y - s * v.x)};
+  const vec2<T> side{constant<T>(tiled.tile.x < 0 ? -1 : 1), constant<T>(tiled.tile.y < 0 ? -1 : 1)};
+  return side * rotated_back(tiled, v);
 }
 
 /// The same for a derivative of a height by st': its derivative by st. Here the tile's size counts: a
 /// map that repeats more often is steeper (section 2.5).
 template <Scalar T>
 [[nodiscard]] vec2<T> by_coordinate(const TiledMap& tiled, vec2<T> dh) {
-  const T c = constant<T>(tiled.rotation.x);
-  const T s = constant<T>(tiled.rotation.y);
-  return {constant<T>(tiled.tile.x) * (c * dh.x + s * dh.y),
-          constant<T>(tiled.tile.y) * (c * dh.y - s * dh.x)};
+  return vec2<T>{constant<T>(tiled.tile.x), constant<T>(tiled.tile.y)} * rotated_back(tiled, dh);
 }
 
 /// A part of the plane on which the map is shown: all of it, or one of the hex tiles over a point.
@@ -239,8 +249,8 @@ template <int N, LaneScalar T>
 /// The components of a map of values at a coordinate, filtered for a footprint: weights, heights. What
 /// has a direction in the plane is turned with its tile: sample_slopes and sample_height_slopes.
 template <int N, LaneScalar T>
-[[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
-                                      vec2<T> footprint_dx, vec2<T> footprint_dy) {
+[[nodiscard]] std::array<T, N> sample(const TiledMap& tiled, const std::type_identity_t<PlanePlace<T>>& st,
+                                      const vec2<T>& footprint_dx, const vec2<T>& footprint_dy) {
   const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
   const MapPlace<T> here = map_place<T>(tiled, st);
   if (!tiled.hex_turn) return sample_at<N>(tiled, here.st, footprint);
@@ -272,8 +282,8 @@ template <LaneScalar T>
 /// The slopes of a map of slopes along st' (along_coordinate takes them to st). Of hex tiles the steeper
 /// prevail.
 template <LaneScalar T>
-[[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
-                                    vec2<T> footprint_dx, vec2<T> footprint_dy) {
+[[nodiscard]] vec2<T> sample_slopes(const TiledMap& tiled, const std::type_identity_t<PlanePlace<T>>& st,
+                                    const vec2<T>& footprint_dx, const vec2<T>& footprint_dy) {
   const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
   const MapPlace<T> here = map_place<T>(tiled, st);
   if (!tiled.hex_turn) return slope_at(tiled, here.st, footprint);
@@ -309,8 +319,9 @@ template <LaneScalar T>
 /// The derivative by st' of the heights whose derivatives by the whole map `tiled` holds (by_coordinate
 /// takes it to st).
 template <LaneScalar T>
-[[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled, std::type_identity_t<PlanePlace<T>> st,
-                                           vec2<T> footprint_dx, vec2<T> footprint_dy) {
+[[nodiscard]] vec2<T> sample_height_slopes(const TiledMap& tiled,
+                                           const std::type_identity_t<PlanePlace<T>>& st,
+                                           const vec2<T>& footprint_dx, const vec2<T>& footprint_dy) {
   const image::Footprint<T> footprint = footprint_in_map(tiled, footprint_dx, footprint_dy);
   const MapPlace<T> here = map_place<T>(tiled, st);
   const auto of_tile = [&](const MapTile<T>& tile) {

@@ -88,12 +88,12 @@ template <LaneScalar T>
   if (wrap == Wrap::repeat) {
     const T x = max(s * n - half, -half);
     const T low = floor(x);
-    return {to_index(select(low < zero, last, low)), x - low};
+    return {whole_index(select(low < zero, last, low)), x - low};
   }
   // Beyond the centre of a border's texel its copies follow, on mirrored maps too.
   const T x = min(max(s * n - half, zero), last);
   const T low = floor(x);
-  return {to_index(low), x - low};
+  return {whole_index(low), x - low};
 }
 
 /// The texel that holds the point.
@@ -261,7 +261,7 @@ template <LaneScalar T>
   const T clamped = min(max(lod, zero), T(static_cast<value_t<T>>(level_count - 1)));
   const T low = floor(clamped);
   const T fraction = clamped - low;
-  return {to_index(low), fraction, mask_t<T>(active & (zero < fraction))};
+  return {whole_index(low), fraction, mask_t<T>(active & (zero < fraction))};
 }
 
 /// The two levels around a LOD, blended. A level that has no weight in a lane is not read there.
@@ -314,7 +314,7 @@ template <TexelFormat format, int N, LaneScalar T>
 /// active  lanes to sample; others give 0
 /// NaN     and infinite coordinates read some texel; a NaN lod reads level 0
 template <int N, LaneScalar T>
-[[nodiscard]] std::array<T, N> sample(const Map& map, vec2<T> st, T lod, Wraps wrap, Filter filter,
+[[nodiscard]] std::array<T, N> sample(const Map& map, const vec2<T>& st, T lod, Wraps wrap, Filter filter,
                                       mask_t<T> active) {
   const vec2<T> at{detail::folded(st.x, wrap.s), detail::folded(st.y, wrap.t)};
   if constexpr (N == 1)

@@ -156,8 +156,10 @@ template <LaneScalar T>
   for (int s = 0; s < wanted.slots; ++s) {
     const auto slot = static_cast<std::size_t>(s);
     UvFragment<T>& uv = f.uvs[slot];
-    uv = {{zero, zero}, {zero, zero}, {zero, zero}, {zero, zero}, {zero, zero}, none, zero};
-    if (!wanted.present[slot]) continue;
+    if (!wanted.present[slot]) {
+      uv = {{zero, zero}, {zero, zero}, {zero, zero}, {zero, zero}, {zero, zero}, none, zero};
+      continue;
+    }
     const auto st = [&](std::size_t i) {
       return attribute([=](const TriangleSetup& t) { return t.slots[slot].st[i]; });
     };
@@ -168,6 +170,8 @@ template <LaneScalar T>
     uv.dst_dy = {u.dy, v.dy};
     uv.footprint_dx = uv.dst_dx;
     uv.footprint_dy = uv.dst_dy;
+    uv.tangent = none;
+    uv.sign = zero;
     if (!wanted.tangents[slot]) continue;
     uv.tangent = attribute.vector([=](const TriangleSetup& t) { return t.slots[slot].tangent; }).at;
     uv.sign = setup.at([=](const TriangleSetup& t) { return t.slots[slot].sign; });

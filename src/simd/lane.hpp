@@ -1,8 +1,8 @@
 #pragma once
 
 /// What lanes have to do with each other and with memory beyond the core's needs. A pack supplies `lane`,
-/// `with_lane` and `same_in_all` in its own namespace, may supply a faster `gather_words`, and specialises
-/// `lane_count` and `LaneArrays`.
+/// `with_lane` and `same_in_all` in its own namespace, may supply a faster `whole_index` and `gather_words`,
+/// and specialises `lane_count` and `LaneArrays`.
 
 #include <surfgrad/scalar.hpp>
 
@@ -54,10 +54,17 @@ constexpr void store(T a, value_t<T>* to) {
   LaneArrays<T>::store(a, to);
 }
 
-/// Whether an index is the same in all lanes that are active, and what it is there: 0 where none is.
+/// Whether a small index, 0 or more, is the same in all lanes that are active, and what it is there: 0 where
+/// none is.
 [[nodiscard]] constexpr bool same_in_all(std::int32_t a, bool active, std::int32_t& value) {
   value = active ? a : 0;
   return true;
+}
+
+/// to_index of a whole number from 0 to 2^22: it needs no care for what is beyond the range, or no number.
+template <class T>
+[[nodiscard]] constexpr index_t<T> whole_index(T a) {
+  return to_index(a);
 }
 
 /// Words that packs may read beyond those asked for: arrays end with as many that nobody uses.

@@ -126,6 +126,12 @@ HWY_INLINE Index to_index(Float a) {
   return hn::IfThenElseZero(number, hn::ConvertTo(IndexTag(), a.v));
 }
 
+/// 2^23 more, a whole number is in the lowest bits.
+HWY_INLINE Index whole_index(Float a) {
+  const hn::Vec<FloatTag> shifted = hn::Add(a.v, hn::Set(FloatTag(), 8388608.0f));
+  return hn::Sub(hn::BitCast(IndexTag(), shifted), hn::BitCast(IndexTag(), hn::Set(FloatTag(), 8388608.0f)));
+}
+
 /// The floats whose bits these are.
 template <std::same_as<Float> T>
 HWY_INLINE T float_from_bits(Bits a) {
@@ -172,6 +178,21 @@ HWY_INLINE auto each_block(const Load& load, std::size_t first, std::size_t step
   }
 }
 
+using PairTag = hn::Repartition<std::uint64_t, BitsTag>;
+
+/// Two words at each index, as one number. Highway's gather of them counts in pairs, and in 64 bits.
+HWY_INLINE hn::Vec<PairTag> gather_pairs(const std::uint32_t* words, hn::Vec<hn::Half<IndexTag>> index) {
+#if HWY_TARGET <= HWY_AVX3
+  return {_mm512_i32gather_epi64(index.raw, words, sizeof(std::uint32_t))};
+#elif HWY_TARGET == HWY_AVX2
+  return {
+      _mm256_i32gather_epi64(reinterpret_cast<const long long*>(words), index.raw, sizeof(std::uint32_t))};
+#else
+  const auto offset = hn::ShiftLeft<2>(hn::PromoteTo(hn::RebindToSigned<PairTag>(), index));
+  return hn::GatherOffset(PairTag(), reinterpret_cast<const std::uint64_t*>(words), offset);
+#endif
+}
+
 /// The words at `index` and behind it, as gather reads them: two by a gather of pairs, four by a load and
 /// part of a shuffle for each lane. Either costs less than gathers of each word.
 template <int Count>
@@ -179,13 +200,8 @@ HWY_INLINE std::array<Bits, Count> gather_words(Words words, Index index, Mask m
   static_assert(Count == 2 || Count == 4);
   const hn::Mask<BitsTag> mb = hn::RebindMask(BitsTag(), m.v);
   const hn::Vec<IndexTag> from = hn::IfThenElseZero(hn::RebindMask(IndexTag(), m.v), index.v);
-  const hn::Repartition<std::uint64_t, BitsTag> pair;
   if constexpr (Count == 2) {
-    const auto* base = reinterpret_cast<const std::uint64_t*>(words.data);
-    const auto pairs = [&](auto half) {
-      const auto offset = hn::ShiftLeft<2>(hn::PromoteTo(hn::Repartition<std::int64_t, BitsTag>(), half));
-      return hn::BitCast(BitsTag(), hn::GatherOffset(pair, base, offset));
-    };
+    const auto pairs = [&](auto half) { return hn::BitCast(BitsTag(), gather_pairs(words.data, half)); };
     const hn::Vec<BitsTag> low = pairs(hn::LowerHalf(hn::Half<IndexTag>(), from));
     const hn::Vec<BitsTag> high = pairs(hn::UpperHalf(hn::Half<IndexTag>(), from));
     return {Bits(hn::IfThenElseZero(mb, hn::ConcatEven(BitsTag(), high, low))),
@@ -201,6 +217,7 @@ HWY_INLINE std::array<Bits, Count> gather_words(Words words, Index index, Mask m
     const hn::Vec<BitsTag> b = each_block<pack_width>(load, 1, 4);
     const hn::Vec<BitsTag> c = each_block<pack_width>(load, 2, 4);
     const hn::Vec<BitsTag> d = each_block<pack_width>(load, 3, 4);
+    const PairTag pair;
     const auto low_ab = hn::BitCast(pair, hn::InterleaveLower(BitsTag(), a, b));
     const auto low_cd = hn::BitCast(pair, hn::InterleaveLower(BitsTag(), c, d));
     const auto word = [&](auto pairs) { return Bits(hn::IfThenElseZero(mb, hn::BitCast(BitsTag(), pairs))); };
@@ -212,14 +229,15 @@ HWY_INLINE std::array<Bits, Count> gather_words(Words words, Index index, Mask m
   }
 }
 
-/// Whether an index is the same in all lanes that are active, and what it is there: 0 where none is.
+/// Whether a small index, 0 or more, is the same in all lanes that are active, and what it is there: 0 where
+/// none is. Found by branches, which are predicted: what depends on the value need not wait for the index.
 HWY_INLINE bool same_in_all(Index a, Mask active, std::int32_t& value) {
   const hn::Mask<IndexTag> mi = hn::RebindMask(IndexTag(), active.v);
-  const std::intptr_t first = hn::FindFirstTrue(IndexTag(), mi);
-  value = first < 0    ? 0
-          : first == 0 ? hn::GetLane(a.v)
-                       : hn::ExtractLane(a.v, static_cast<std::size_t>(first));
-  return hn::AllFalse(IndexTag(), hn::And(mi, hn::Ne(a.v, hn::Set(IndexTag(), value))));
+  for (value = 0;; ++value) {
+    const hn::Vec<IndexTag> here = hn::Set(IndexTag(), value);
+    if (hn::AllFalse(IndexTag(), hn::And(mi, hn::Ne(a.v, here)))) return true;
+    if (!hn::AllFalse(IndexTag(), hn::And(mi, hn::Eq(a.v, here)))) return false;
+  }
 }
 
 } // namespace surfgrad::simd::SURFGRAD_ISA_NAMESPACE

@@ -56,10 +56,10 @@ template <Scalar T>
 ///              gradient is zero there
 template <LaneScalar T>
 [[nodiscard]] vec3<T> surface_gradient(const NormalMap& layer, const Point<T>& point, mask_t<T>& degenerate) {
+  const vec2<T> slope = sample_slopes(layer.texture, point.fragment); // first: texels take their time to come
   mask_t<T> collapsed;
   const TangentFrame<T> basis = frame_of(point, layer.texture.slot, layer.derived, collapsed);
   degenerate = degenerate | collapsed;
-  const vec2<T> slope = sample_slopes(layer.texture, point.fragment);
   return from_tbn(along_coordinate(layer.texture.tiled, slope), basis.tangent, basis.bitangent);
 }
 

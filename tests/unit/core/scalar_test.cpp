@@ -2,7 +2,9 @@
 
 #include "simd/emulated_lanes.hpp"
 #include "support/dual.hpp"
+#include "support/least_scalar.hpp"
 #include <gtest/gtest.h>
+#include <surfgrad/noise.hpp>
 #include <surfgrad/vec.hpp>
 
 namespace surfgrad::test {
@@ -13,7 +15,9 @@ using simd::EmulatedFloat;
 using simd::EmulatedIndex;
 using simd::EmulatedMask;
 
-static_assert(LaneScalar<float> && LaneScalar<double> && LaneScalar<EmulatedFloat>);
+static_assert(LaneScalar<float> && LaneScalar<double> && LaneScalar<EmulatedFloat> && LaneScalar<LeastFloat>);
+static_assert(!std::constructible_from<LeastIndex, std::int32_t> &&
+              !std::constructible_from<LeastBits, std::uint32_t>);
 static_assert(Scalar<Dual<2>> && !LaneScalar<Dual<2>>, "a dual number serves the listings only");
 static_assert(!Scalar<int>);
 
@@ -72,6 +76,16 @@ TEST(Scalar, EmulatedIntegersWrapAndShiftAsRegistersDo) {
   EXPECT_EQ((EmulatedBits(0x9E3779B9u) * EmulatedBits(0x85EBCA6Bu)).lane[2], 0x9E3779B9u * 0x85EBCA6Bu);
   EXPECT_EQ(EmulatedFloat(EmulatedIndex(-7)).lane[1], -7.0f);
   EXPECT_EQ(EmulatedIndex(EmulatedBits(0xFFFFFFFFu)).lane[1], -1);
+}
+
+TEST(Scalar, NoiseOnWhatTheConceptsAskForAloneIsNoiseOnFloats) {
+  for (int i = 0; i < 200; ++i) {
+    const vec3<float> p{0.37f * static_cast<float>(i) - 40, 1.9f - 0.71f * static_cast<float>(i),
+                        0.11f * static_cast<float>(i)};
+    const vec3<LeastFloat> q{LeastFloat(p.x), LeastFloat(p.y), LeastFloat(p.z)};
+    EXPECT_EQ(perlin(q).value.v, perlin(p).value) << i;
+    EXPECT_EQ(simplex(q).gradient.y.v, simplex(p).gradient.y) << i;
+  }
 }
 
 TEST(Scalar, MasksSelectLaneByLane) {
