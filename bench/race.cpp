@@ -78,9 +78,9 @@ Request parse_request(int argc, char** argv) {
 
 namespace {
 
-/// All processors work for a while. One that idled is slow when it is wanted again: on a virtual machine a first
-/// turn of 0.3 s took up to twice as long after some seconds of sleep, and no longer after as many of any work.
-/// Threads of the contestant before, which still spin for a moment, have fallen asleep by then.
+/// All processors work for a while. One that idled is slow when it is wanted again: on a virtual machine a
+/// first turn of 0.3 s took up to twice as long after some seconds of sleep, and no longer after as many of
+/// any work. Threads of the contestant before, which still spin for a moment, have fallen asleep by then.
 void wake_processors() {
   const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   std::vector<std::thread> threads;
